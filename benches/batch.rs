@@ -1,7 +1,6 @@
-//! One function in one run, f64 and f32: a state a call, and batches of 1024 states in columns,
-//! in the vectors that the processor has, in those of AVX2 and in those of a plain build. Beside each stands how many
-//! times the limit of the processor's ports it takes (`ports.rs`), and what gcc -O3 makes of the
-//! same functions in C, if there is a gcc.
+//! One function in one run, f64 and f32: a state a call, and batches of 1024 states in columns, in
+//! several vectors; how many times the limit of the processor's ports each takes (`ports.rs`), and
+//! what gcc -O3 makes of the same functions in C, if there is a gcc.
 //!
 //! `cargo bench --bench batch`, or of some functions alone, by parts of their names:
 //! `cargo bench --bench batch -- torques`.
@@ -39,19 +38,14 @@ dalembert::dynamics! {
 }
 
 const STATES: usize = 1024;
-
 const MANY: usize = 16_384;
-
 const ROUNDS: usize = 401;
 
 /// Seeded numbers inside ±π in columns, for each argument.
 fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
     let mut points = Points::new(1);
-    let mut column = || {
-        (0..states)
-            .map(|_| std::f64::consts::PI * points.unit())
-            .collect()
-    };
+    let mut number = |_| std::f64::consts::PI * points.unit();
+    let mut column = || (0..states).map(&mut number).collect();
     [(); 3].map(|()| [(); 6].map(|()| column()))
 }
 
@@ -89,9 +83,8 @@ macro_rules! bench {
             .each_mut()
             .map(|argument| argument.each_mut().map(|column| &*aligned(column, MANY)));
         let rows = columns.map(|argument| {
-            (0..STATES)
-                .map(|k| argument.map(|column| column[k]))
-                .collect::<Vec<_>>()
+            let row = |k| argument.map(|column| column[k]);
+            (0..STATES).map(row).collect::<Vec<_>>()
         });
         let [a, b, c] = rows.each_ref().map(|rows| &rows[..]);
         let mut in_columns: [Vec<$scalar>; $results] =
@@ -165,10 +158,8 @@ macro_rules! bench {
 
 fn main() {
     use dalembert_codegen::Function as Output;
-    let chosen: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|word| !word.starts_with('-'))
-        .collect();
+    let words = std::env::args().skip(1);
+    let chosen: Vec<String> = words.filter(|word| !word.starts_with('-')).collect();
     let is_chosen =
         |name: &str| chosen.is_empty() || chosen.iter().any(|part| name.contains(part.as_str()));
     let clock = ports::clock();
@@ -177,12 +168,13 @@ fn main() {
         // Else gcc makes no vectors of 256 bits.
         let narrow = ["-march=x86-64-v3", "-fno-tree-pre"];
         let wide = ["-march=x86-64-v4", "-mprefer-vector-width=512"];
-        let is_there = |vectors: Vectors| vectors.are_there().then_some(());
+        let start = |vectors: Vectors, end: &str, options: &[&str]| match vectors.are_there() {
+            true => Gcc::start(&format!("{name}_{end}"), functions, fma, options),
+            false => None,
+        };
         Compiled {
-            wide: is_there(Vectors::Avx512)
-                .and_then(|()| Gcc::start(&format!("{name}_avx512"), functions, fma, &wide)),
-            narrow: is_there(Vectors::Avx2)
-                .and_then(|()| Gcc::start(&format!("{name}_avx2"), functions, fma, &narrow)),
+            wide: start(Vectors::Avx512, "avx512", &wide),
+            narrow: start(Vectors::Avx2, "avx2", &narrow),
         }
     };
     let dynamics = [Output::InverseDynamics, Output::ForwardDynamics];

@@ -21,7 +21,6 @@ use rounds::Rounds;
 mod symbolic;
 
 const CALLS: usize = 200;
-
 const ROUNDS: usize = 1001;
 
 fn reference(name: &str) -> Reference<f64> {
@@ -37,6 +36,14 @@ fn states<const N: usize>(seed: u64) -> Vec<[f64; N]> {
     (0..CALLS).map(state).collect()
 }
 
+fn calls<R>(rounds: &mut Rounds, name: &'static str, run: impl Fn(usize) -> R) {
+    rounds.time(name, || {
+        for k in 0..CALLS {
+            black_box(run(k));
+        }
+    });
+}
+
 macro_rules! inverse_dynamics {
     ($robot:ident) => {{
         const N: usize = $robot::N;
@@ -48,22 +55,15 @@ macro_rules! inverse_dynamics {
         });
         let mut rounds = Rounds::of(CALLS);
         for _ in 0..ROUNDS {
-            rounds.time("generated", || {
-                for k in 0..CALLS {
-                    black_box($robot::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k]));
-                }
+            calls(&mut rounds, "generated", |k| {
+                $robot::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k])
             });
-            rounds.time("recursion in symbols, unsimplified", || {
-                for k in 0..CALLS {
-                    let q = black_box(&q[k]);
-                    black_box(symbolic::$robot::inverse_dynamics(q, &qd[k], &qdd[k]));
-                }
+            calls(&mut rounds, "recursion in symbols, unsimplified", |k| {
+                symbolic::$robot::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k])
             });
-            rounds.time("generic recursion", || {
-                for k in 0..CALLS {
-                    let [q, qd, qdd] = [0, 1, 2].map(|i| &vectors[i][k]);
-                    let _ = black_box(generic.inverse_dynamics(black_box(q), qd, qdd));
-                }
+            calls(&mut rounds, "generic recursion", |k| {
+                let [q, qd, qdd] = [0, 1, 2].map(|i| &vectors[i][k]);
+                generic.inverse_dynamics(black_box(q), qd, qdd)
             });
         }
         rounds.print(concat!(stringify!($robot), " inverse_dynamics f64"));
@@ -78,33 +78,23 @@ fn variants() {
     });
     let mut rounds = Rounds::of(CALLS);
     for _ in 0..ROUNDS {
-        rounds.time("inertia, coriolis, gravity", || {
-            for (q, qd) in q.iter().zip(&qd) {
-                let q = black_box(q);
-                black_box((puma560::inertia(q), puma560::coriolis(q, qd)));
-                black_box(puma560::gravity(q));
-            }
+        calls(&mut rounds, "inertia, coriolis, gravity", |k| {
+            let q = black_box(&q[k]);
+            let (inertia, coriolis) = (puma560::inertia(q), puma560::coriolis(q, &qd[k]));
+            (inertia, coriolis, puma560::gravity(q))
         });
-        rounds.time("manipulator_equation", || {
-            for (q, qd) in q.iter().zip(&qd) {
-                black_box(puma560::manipulator_equation(black_box(q), qd));
-            }
+        calls(&mut rounds, "manipulator_equation", |k| {
+            puma560::manipulator_equation(black_box(&q[k]), &qd[k])
         });
-        rounds.time("dynamic_coefficients", || {
-            for q in &q {
-                black_box(puma560::dynamic_coefficients(black_box(q)));
-            }
+        calls(&mut rounds, "dynamic_coefficients", |k| {
+            puma560::dynamic_coefficients(black_box(&q[k]))
         });
-        rounds.time("inverse_dynamics", || {
-            for k in 0..CALLS {
-                black_box(puma560::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k]));
-            }
+        calls(&mut rounds, "inverse_dynamics", |k| {
+            puma560::inverse_dynamics(black_box(&q[k]), &qd[k], &qdd[k])
         });
-        rounds.time("inverse_dynamics f32", || {
-            let [q, qd, qdd] = &single;
-            for ((q, qd), qdd) in q.iter().zip(qd).zip(qdd) {
-                black_box(puma560_f32::inverse_dynamics(black_box(q), qd, qdd));
-            }
+        calls(&mut rounds, "inverse_dynamics f32", |k| {
+            let [q, qd, qdd] = single.each_ref().map(|states| &states[k]);
+            puma560_f32::inverse_dynamics(black_box(q), qd, qdd)
         });
     }
     rounds.print("puma560, functions");

@@ -33,11 +33,7 @@ impl Gcc {
         let (mut loops, mut cases) = (String::new(), String::new());
         for (index, head) in heads.enumerate() {
             let function = head.split('(').next()?.rsplit(' ').next()?;
-            let scalar = if head.contains("float") {
-                "float"
-            } else {
-                "double"
-            };
+            let scalar = ["double", "float"][usize::from(head.contains("float"))];
             let results = head.split(", ").filter(|part| !part.starts_with("const "));
             let length = |part: &str| {
                 part.split(['[', ' ', ']'])

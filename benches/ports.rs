@@ -214,10 +214,8 @@ pub fn limit<T: Angle>(operations: &Operations, width: u32, clock: f64) -> Optio
     let busy = |ports: u8| {
         let pairs = kinds.iter().zip(operations);
         let port_pairs = pairs.filter(|((mask, _), _)| mask & !ports == 0);
-        let cycles: f64 = port_pairs
-            .map(|((_, cycles), count)| cycles * *count as f64)
-            .sum();
-        cycles / f64::from(ports.count_ones())
+        let cycles = port_pairs.map(|((_, cycles), count)| cycles * *count as f64);
+        cycles.sum::<f64>() / f64::from(ports.count_ones())
     };
     let cycles = (1..=u8::MAX).map(busy).fold(0.0, f64::max);
     let lanes = row.width as usize / (8 * size_of::<T>());

@@ -5,17 +5,13 @@ use std::time::Instant;
 
 pub struct Rounds {
     units: usize,
-    names: Vec<&'static str>,
-    times: Vec<Vec<f64>>,
+    variants: Vec<(&'static str, Vec<f64>)>,
 }
 
 impl Rounds {
     pub fn of(units: usize) -> Rounds {
-        Rounds {
-            units,
-            names: Vec::new(),
-            times: Vec::new(),
-        }
+        let variants = Vec::new();
+        Rounds { units, variants }
     }
 
     pub fn time(&mut self, name: &'static str, run: impl FnOnce()) {
@@ -26,16 +22,11 @@ impl Rounds {
 
     /// The nanoseconds that one run of a variant took, once a round.
     pub fn note(&mut self, name: &'static str, time: f64) {
-        let place = self
-            .names
-            .iter()
-            .position(|known| *known == name)
-            .unwrap_or_else(|| {
-                self.names.push(name);
-                self.times.push(Vec::new());
-                self.names.len() - 1
-            });
-        self.times[place].push(time / self.units as f64);
+        let time = time / self.units as f64;
+        match self.variants.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, times)) => times.push(time),
+            None => self.variants.push((name, vec![time])),
+        }
     }
 
     /// Prints medians: of the times, and of the speed relative to the first variant in the same
@@ -43,14 +34,11 @@ impl Rounds {
     #[allow(dead_code)] // Every bench compiles this file for itself.
     pub fn print(&self, what: &str) {
         println!("\n{what}: ns each, times as fast as the first");
-        for (name, times) in self.names.iter().zip(&self.times) {
-            let pairs = self.times[0].iter().zip(times);
+        for (name, times) in &self.variants {
+            let pairs = self.variants[0].1.iter().zip(times);
             let ratios = pairs.map(|(first, time)| first / time);
-            println!(
-                "{name:40} {:12.2} {:8.2}",
-                median(times.clone()),
-                median(ratios.collect())
-            );
+            let (time, ratio) = (median(times.clone()), median(ratios.collect()));
+            println!("{name:40} {time:12.2} {ratio:8.2}");
         }
     }
 
@@ -58,7 +46,7 @@ impl Rounds {
     #[allow(dead_code)]
     pub fn print_limits(&self, what: &str, limit: impl Fn(&str) -> Option<f64>) {
         println!("\n{what}: ns each, median and least; port limit, times that");
-        for (name, times) in self.names.iter().zip(&self.times) {
+        for (name, times) in &self.variants {
             let least = times.iter().copied().fold(f64::MAX, f64::min);
             print!("{name:32} {:10.2} {least:10.2}", median(times.clone()));
             match limit(name) {

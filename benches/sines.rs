@@ -50,15 +50,21 @@ fn states() -> Vec<State> {
 
 const ROUNDS: usize = 301;
 
+fn time<S, R>(rounds: &mut Rounds, name: &'static str, states: &[S], run: impl Fn(&S) -> R) {
+    rounds.time(name, || {
+        for state in black_box(states) {
+            black_box(run(state));
+        }
+    });
+}
+
 fn torques(states: &[State]) {
     let mut rounds = Rounds::of(STATES);
     for _ in 0..ROUNDS {
         macro_rules! time {
             ($($name:ident),*) => {$(
-                rounds.time(stringify!($name), || {
-                    for [q, qd, qdd] in black_box(states) {
-                        black_box(variants::$name::inverse_dynamics(q, qd, qdd));
-                    }
+                time(&mut rounds, stringify!($name), states, |[q, qd, qdd]| {
+                    variants::$name::inverse_dynamics(q, qd, qdd)
                 });
             )*};
         }
@@ -71,26 +77,20 @@ fn six_angles(states: &[State]) {
     let single: Vec<[f32; 6]> = states.iter().map(|[q, ..]| q.map(|x| x as f32)).collect();
     let [mut double_rounds, mut single_rounds] = [(); 2].map(|()| Rounds::of(STATES));
     for _ in 0..ROUNDS {
-        double_rounds.time("libm", || {
-            for [q, ..] in black_box(states) {
-                black_box(q.map(libm::sincos));
-            }
+        let sines = dalembert_sines::sincos::<6>;
+        time(&mut double_rounds, "libm", states, |[q, ..]| {
+            q.map(libm::sincos)
         });
-        double_rounds.time("together", || {
-            for [q, ..] in black_box(states) {
-                black_box(dalembert_sines::sincos(q));
-            }
+        time(&mut double_rounds, "together", states, |[q, ..]| sines(q));
+        time(&mut single_rounds, "libm", &single, |q| {
+            q.map(libm::sincosf)
         });
-        single_rounds.time("libm", || {
-            for q in black_box(&single) {
-                black_box(q.map(libm::sincosf));
-            }
-        });
-        single_rounds.time("together", || {
-            for q in black_box(&single) {
-                black_box(dalembert_sines::sincosf(q));
-            }
-        });
+        time(
+            &mut single_rounds,
+            "together",
+            &single,
+            dalembert_sines::sincosf,
+        );
     }
     double_rounds.print("six angles f64");
     single_rounds.print("six angles f32");

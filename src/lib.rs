@@ -69,10 +69,9 @@ pub mod matrices;
 /// # assert!(tau[1] > 30.0 && hold[1] > 30.0);
 /// ```
 ///
-/// The module is `pub`, `pub(crate)` or private as it says, has the
-/// documentation and attributes that stand above it, and continues the
-/// documentation with the DH table, the operation counts and the proof.
-/// Functions take arrays by reference and return arrays.
+/// The module is `pub`, `pub(crate)` or private as it says, has the documentation and attributes
+/// that stand above it, and continues the documentation with the DH table, the operation counts and
+/// the proof. Functions take arrays by reference and return arrays.
 ///
 /// # The generated file
 ///
@@ -87,10 +86,9 @@ pub mod matrices;
 ///
 /// # The robot
 ///
-/// A robot file by its path, relative to `CARGO_MANIFEST_DIR` or, where there is none,
-/// to the folder of the file with the macro; editing it
-/// expands the macro again. With the feature `search` a plan that `dalembert generate
-/// --save-plan` puts beside it is replayed, and there may be the
+/// A robot file by its path, relative to `CARGO_MANIFEST_DIR` or, where there is none, to the
+/// folder of the file with the macro; editing it expands the macro again. With the feature `search`
+/// a plan that `dalembert generate --save-plan` puts beside it is replayed, and there may be the
 /// text of a robot file, several lines of TOML in a raw string:
 ///
 /// ```
@@ -119,8 +117,7 @@ pub mod matrices;
 /// assert_eq!(gantry::gravity(&[0.0]), [4.5 * 9.81]);
 /// ```
 ///
-/// Numbers are exact, as they are written: `0.3` is 3/10, `"1/3"` a third, `"pi/2"` a right
-/// angle, and so is `"90deg"`.
+/// Numbers are exact: `0.3` is 3/10, `"1/3"` a third, `"pi/2"` and `"90deg"` are a right angle.
 ///
 /// What is odd about a robot, such as an inertia that no body has or lengths that
 /// look like millimetres, is a warning of whatever generates. Whoever knows better
@@ -136,8 +133,7 @@ pub mod matrices;
 ///   `NAME_f32`. The default is `f64`.
 /// - `formulation: auto;` tries all of `newton_euler`, `dalembert` and
 ///   `lagrange_euler` and keeps the cheapest; naming one tries that only.
-/// - `effort: quick;` or `thorough`, which takes minutes and finds a few
-///   operations less.
+/// - `effort: quick;` or `thorough`, which takes minutes and finds a few operations less.
 /// - `prefer: operations;` takes the cheapest code even where its rounding error
 ///   is more than four times the textbook form's, which `accuracy`, the default,
 ///   does not. It says nothing about code that a plan keeps.
@@ -146,18 +142,15 @@ pub mod matrices;
 ///   that has it: `-C target-cpu=native`, or `-C target-feature=+fma` on x86-64; aarch64
 ///   always does. Any other calls a function of C for each, slower by far than the
 ///   two operations are. With `off`, the default, every operation is rounded.
-/// - `sincos: auto;` takes polynomials for sines and cosines where a scene's
-///   tolerance admits them, else calls libm angle by angle, as `libm` always does.
-///   `together` computes those of all angles together, within 0.90 ulp, in vectors up to
-///   8192 rad (f32: 100) and by libm beyond: in a third to a fifth of libm's time, where
-///   code is optimised. `polynomial`
-///   takes polynomials over the joints' limits, or the scene's box; outside
-///   they are wrong. For a joint without limits, whole turns are taken off first:
-///   they hold to ±1e6 rad, in f32 to ±1e3.
-/// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for
-///   `sincos: polynomial;` alone. The default is `1e-6`, or the least error of two digits
-///   that the scalar can have; in a scene with a tolerance that decides, and no error is
-///   given.
+/// - `sincos: auto;` takes polynomials for sines and cosines where a scene's tolerance admits them,
+///   else calls libm angle by angle, as `libm` always does. `together` computes those of all angles
+///   together, within 0.90 ulp, in vectors up to 8192 rad (f32: 100) and by libm beyond: in a third
+///   to a fifth of libm's time, where code is optimised. `polynomial` takes polynomials over the
+///   joints' limits, or the scene's box; outside they are wrong. For a joint without limits, whole
+///   turns are taken off first: they hold to ±1e6 rad, in f32 to ±1e3.
+/// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for `sincos: polynomial;`
+///   alone. The default is `1e-6`, or the least error of two digits that the scalar can have; in a
+///   scene with a tolerance that decides, and no error is given.
 /// - `batch: on;` adds `NAME_columns` to each function, for any number of states
 ///   ([below](#many-states)).
 /// - `parameters: payload;`, `gravity`, `bodies`, `armature` or `viscous` make arguments of what are
@@ -242,12 +235,11 @@ pub mod matrices;
 /// arm::gravity(&[0.3, -0.5], &arm::Gravity([0.0, -9.81, 0.0]), &tool);
 /// ```
 ///
-/// `load` gives the regrouped parameters that the payload changes, which stand where
-/// constants stood, so that a payload costs a call little. Every function is proved
-/// with the payload's ten numbers as variables. Kinematics take none; what depends
-/// on more of a payload than joints feel (`potential_energy`, `reaction_wrenches`,
-/// `dalembert_terms`) is refused.
-/// A plan keeps their programs beside those of the robot's own parameters.
+/// `load` gives the regrouped parameters that the payload changes, which stand where constants
+/// stood, so that a payload costs a call little. Every function is proved with the payload's ten
+/// numbers as variables. Kinematics take none; what depends on more of a payload than joints feel
+/// (`potential_energy`, `reaction_wrenches`, `dalembert_terms`) is refused. A plan keeps their
+/// programs beside those of the robot's own parameters.
 ///
 /// `bodies` are the masses, centres of mass and inertias of the links, in the frames that the robot
 /// file gives them in. `BODIES` are those of the file, and `with` puts another in a place from zero.
@@ -356,15 +348,14 @@ pub mod matrices;
 /// let tau: [f64; 2] = arm::inverse_dynamics(&q, &qdd);
 /// ```
 ///
-/// Arguments keep an entry for every joint, results are over `joints`. With a
-/// tolerance each function's documentation has its bounds: how far it is
-/// from the full model at most, in the box. Where functions hold in a box only,
-/// be it for a tolerance or for polynomials, the module has that as `BOX` and a
-/// function `in_box`, which takes what they take and says whether it is inside.
-/// A joint without limits has one turn in it, -π to π. A box that a joint never reaches is
-/// an error, one that goes beyond its limits is taken as it stands. To find
-/// what a tolerance admits takes longer than other clauses: keep it in a plan
-/// with the command (`generate --scene NAME --save-plan`).
+/// Arguments keep an entry for every joint, results are over `joints`. With a tolerance each
+/// function's documentation has its bounds: how far it is from the full model at most, in the box.
+/// Where functions hold in a box only, be it for a tolerance or for polynomials, the module has
+/// that as `BOX` and a function `in_box`, which takes what they take and says whether it is inside.
+/// A joint without limits has one turn in it, -π to π. A box that a joint never reaches is an
+/// error, one that goes beyond its limits is taken as it stands. To find what a tolerance admits
+/// takes longer than other clauses: keep it in a plan with the command (`generate --scene NAME
+/// --save-plan`).
 #[cfg(feature = "macros")]
 pub use dalembert_macros::dynamics;
 

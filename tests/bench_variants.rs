@@ -1,9 +1,5 @@
-//! The functions that the bench of sines compares are what the generator
-//! writes: one program, shown with polynomials to stay within 1e-6 of the
-//! actuators' limits, printed with them, with libm's sines, with std's, and with
-//! those of all angles together; and the recursion in symbols that nothing simplified.
-//!
-//! What differs is written anew before the test fails.
+//! The functions that benches compare are what the generator writes: one program with several
+//! sines, and the recursion in symbols. What differs is written anew before the test fails.
 
 use std::fs;
 use std::path::Path;
@@ -48,10 +44,8 @@ fn the_bench_of_sines_is_up_to_date() {
         ("polynomials", Library::Libm, sines.as_slice(), ""),
     ] {
         let code = program.code(scalar, library, sines);
-        let code = write_function(program, &code, library, &[]);
-        text += &format!(
-            "\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{before}{code}}}\n"
-        );
+        let function = write_function(program, &code, library, &[]);
+        text += &module(name, &format!("{before}{function}"));
     }
     keep("benches/generated/puma560_sines.rs", &text);
 }
@@ -68,11 +62,13 @@ fn the_recursion_in_symbols_is_up_to_date() {
         let traced = trace(setup.task(function), Formulation::NewtonEulerLink);
         let program = setup.task(function).program(&traced.graph);
         let code = program.in_doubles();
-        let code = write_function(&program, &code, Library::Libm, &[]);
-        text +=
-            &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
+        text += &module(name, &write_function(&program, &code, Library::Libm, &[]));
     }
     keep("benches/generated/recursion.rs", &text);
+}
+
+fn module(name: &str, content: &str) -> String {
+    format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{content}}}\n")
 }
 
 fn root() -> &'static Path {

@@ -15,11 +15,7 @@ type Motion = [Vec<f64>; 3];
 /// The results of a module at a state, matrices row by row, by the keys of the known ones.
 type Outputs = [(&'static str, Vec<f64>); 10];
 
-struct Compiled {
-    name: &'static str,
-    double: fn(&Motion) -> Outputs,
-    single: fn(&Motion) -> Outputs,
-}
+type Run = fn(&Motion) -> Outputs;
 
 macro_rules! run {
     ($module:ident, $float:ty) => {
@@ -50,21 +46,13 @@ macro_rules! run {
 
 macro_rules! compiled {
     ($($double:ident $single:ident),*) => {
-        [$(Compiled {
-            name: stringify!($double),
-            double: run!($double, f64),
-            single: run!($single, f32),
-        }),*]
+        [$((stringify!($double), run!($double, f64), run!($single, f32))),*]
     };
 }
 
-const ROBOTS: [Compiled; 6] = compiled![
-    panda panda_f32,
-    planar2r planar2r_f32,
-    planar3r planar3r_f32,
-    puma560 puma560_f32,
-    stanford stanford_f32,
-    ur10 ur10_f32
+const ROBOTS: [(&str, Run, Run); 6] = compiled![
+    panda panda_f32, planar2r planar2r_f32, planar3r planar3r_f32, puma560 puma560_f32,
+    stanford stanford_f32, ur10 ur10_f32
 ];
 
 fn numbers(json: &Value) -> Vec<f64> {
@@ -96,14 +84,14 @@ fn close(a: &[f64], b: &[f64], bound: f64, what: &str) {
 
 #[test]
 fn six_robots_against_the_files() {
-    for robot in ROBOTS {
-        let states = states(robot.name);
+    for (name, double, single) in ROBOTS {
+        let states = states(name);
         assert_eq!(states.len(), 60);
         for state in &states {
             let motion = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
-            for (run, bound) in [(robot.double, DOUBLE), (robot.single, SINGLE)] {
+            for (run, bound) in [(double, DOUBLE), (single, SINGLE)] {
                 for (key, values) in run(&motion) {
-                    let what = format!("{} {key}", robot.name);
+                    let what = format!("{name} {key}");
                     close(&values, &numbers(&state[key]), bound, &what);
                 }
             }

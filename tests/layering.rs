@@ -1,7 +1,5 @@
-//! The law of the house: each stage of the generator uses those before it, never those after.
-//!
-//! The order of the stages is that of the table in `docs/architecture.md`, which `rustc` knows nothing of:
-//! within a crate it lets every module use every other.
+//! Each stage of the generator uses those before it, never those after, in the order of the table
+//! in `docs/architecture.md`: within a crate `rustc` lets every module use every other.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -108,10 +106,8 @@ fn the_table_names_folders_and_types_that_exist() {
         for name in types {
             let declared = ["struct", "enum", "trait"].map(|kind| format!("{kind} {name}"));
             let is_there = declared.iter().any(|words| text.contains(words));
-            assert!(
-                is_there,
-                "docs/architecture.md: `{name}` is not in {folders:?}"
-            );
+            let what = format!("docs/architecture.md: `{name}` is not in {folders:?}");
+            assert!(is_there, "{what}");
         }
     }
 }

@@ -1,8 +1,5 @@
-//! The counts of the README and the guide are those of the plans beside the robots.
-//! Every program of these plans is proved, whether or not a checked-in file has it. Checked-in files
-//! are compared by `dalembert renew --check`.
-//!
-//! A page that differs is written anew before the test fails.
+//! The counts of the README and the guide are those of the plans beside the robots, whose programs
+//! are all proved. A page that differs is written anew before the test fails.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -62,12 +59,10 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let plan = request.plan.as_ref().unwrap();
     let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());
     let generated = |parameters: &[RuntimeParameter]| {
+        let arguments: Vec<Argument> = parameters.iter().map(|one| one.argument()).collect();
         let taken = |entry: &&Entry| match &entry.parameters {
-            Some(key) => parameters
-                .iter()
-                .map(|parameter| parameter.argument())
-                .eq(key.taken.iter().copied()),
-            None => parameters.is_empty(),
+            Some(key) => key.taken == arguments,
+            None => arguments.is_empty(),
         };
         let mut functions: Vec<Function> = Vec::new();
         for function in entries().filter(taken).map(|entry| entry.program.function) {
@@ -105,10 +100,8 @@ fn updated(page: &str, table: &Table) -> String {
             columns = cells[2..cells.len() - 1].to_vec();
         }
         // `function` in the first column, or several that are one.
-        let named: Vec<Function> = match cells.get(1) {
-            Some(cell) => cell.split('`').filter_map(Function::from_name).collect(),
-            None => Vec::new(),
-        };
+        let words = cells.get(1).into_iter().flat_map(|cell| cell.split('`'));
+        let named: Vec<Function> = words.filter_map(Function::from_name).collect();
         text += &match columns.is_empty() || named.is_empty() {
             true => format!("{line}\n"),
             false => counts(cells[1], &named, &columns, table),

@@ -41,17 +41,12 @@ pub fn ask(
     let generated =
         generate_anew(&file.robot, &request, shown).map_err(|error| placed(&error, &request))?;
     let is_warning = |note: &&Diagnostic| note.severity == Severity::Warning;
-    let mut warnings: Vec<String> = file
-        .notes
-        .iter()
-        .filter(is_warning)
-        .map(|note| {
-            let help = note.help.as_ref();
-            let help = help.map_or_else(String::new, |help| format!("\n  = help: {help}"));
-            let line = note.line().unwrap_or_default();
-            format!("{shown}:{line}: {}{help}", note.message)
-        })
-        .collect();
+    let mut warnings = Vec::new();
+    for note in file.notes.iter().filter(is_warning) {
+        let help = note.help.iter().map(|help| format!("\n  = help: {help}"));
+        let (line, help) = (note.line().unwrap_or_default(), help.collect::<String>());
+        warnings.push(format!("{shown}:{line}: {}{help}", note.message));
+    }
     let rounding = generated.warnings.iter();
     warnings.extend(rounding.map(|said| format!("{shown}: {said}")));
     Ok(AskedCode {
@@ -61,7 +56,6 @@ pub fn ask(
     })
 }
 
-/// Returns an error at the option that it is about.
 fn placed(error: &GenerateError, request: &Request) -> Diagnostic {
     let place = match (error, error.function()) {
         (GenerateError::Parameter(..), _) => {

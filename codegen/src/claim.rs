@@ -9,6 +9,7 @@ use dalembert_model::scalar::Scalar;
 use crate::function::{Argument, Function, Quantity};
 use crate::program::{Operand, Program, Steps};
 use crate::setup::Setup;
+use crate::setup::base::Parameter;
 
 #[derive(Default)]
 pub(crate) struct ConstantTable {
@@ -45,21 +46,16 @@ impl ConstantTable {
 
 pub(crate) fn code(program: &Program, constants: &mut ConstantTable) -> [String; 2] {
     let Steps { steps, outputs } = program.dag.steps();
-    let steps: Vec<String> = steps
-        .iter()
-        .map(|step| {
-            let [left, right] = [&step.left, &step.right].map(|operand| constants.word(operand));
-            format!("{left}{}{right}", step.operation.symbol())
-        })
-        .collect();
-    let returns: Vec<String> = outputs
-        .iter()
-        .map(|output| {
-            let sign = if output.negative { "-" } else { "" };
-            format!("{sign}{}", constants.word(&output.value))
-        })
-        .collect();
-    [steps, returns].map(|words| words.join(" "))
+    let (mut words, mut returns) = (Vec::new(), Vec::new());
+    for step in &steps {
+        let [left, right] = [&step.left, &step.right].map(|operand| constants.word(operand));
+        words.push(format!("{left}{}{right}", step.operation.symbol()));
+    }
+    for output in &outputs {
+        let sign = if output.negative { "-" } else { "" };
+        returns.push(format!("{sign}{}", constants.word(&output.value)));
+    }
+    [words, returns].map(|words| words.join(" "))
 }
 
 pub(crate) fn of_setup(
@@ -71,31 +67,26 @@ pub(crate) fn of_setup(
     let claim = claimed(program, scene, constants);
     let base = setup.base_of(program.function).ok().flatten();
     let combinations = base.map_or(&[][..], |base| &base.combinations);
-    let terms = combinations
-        .iter()
-        .map(|terms| {
-            let terms = terms
-                .iter()
-                .map(|(parameter, factor)| match factor.is_one() {
-                    true => parameter.to_string(),
-                    false => format!("#{}*{parameter}", constants.place(factor)),
-                });
-            terms.collect::<Vec<String>>().join(" ")
-        })
-        .collect();
+    let mut sums = Vec::new();
+    for combination in combinations {
+        let term = |(parameter, factor): &(Parameter, Exact)| match factor.is_one() {
+            true => parameter.to_string(),
+            false => format!("#{}*{parameter}", constants.place(factor)),
+        };
+        sums.push(combination.iter().map(term).collect::<Vec<_>>().join(" "));
+    }
     let values = base
         .map_or_else(Vec::new, |base| base.values(&setup.arm(Exact::clone)))
         .iter()
         .map(|constant| format!("#{}", constants.place(constant)))
         .collect::<Vec<String>>();
+    let takes_bodies = program.arguments.contains(&Argument::Bodies);
+    let bodies = takes_bodies.then(|| setup.body_links());
     FunctionClaim {
         values: values.join(" "),
-        base: terms,
-        bodies: match program.arguments.contains(&Argument::Bodies) {
-            true => setup.body_links(),
-            false => Vec::new(),
-        },
-        keeps_zeros: program.arguments.contains(&Argument::Bodies) && !setup.zeros().is_empty(),
+        base: sums,
+        bodies: bodies.unwrap_or_default(),
+        keeps_zeros: takes_bodies && !setup.zeros().is_empty(),
         ..claim
     }
 }
@@ -106,20 +97,13 @@ pub(crate) fn claimed(
     constants: &mut ConstantTable,
 ) -> FunctionClaim {
     let [steps, returns] = code(program, constants);
-    let arguments = program
-        .arguments
-        .iter()
-        .map(|argument| argument.name().to_owned());
-    let results = program
-        .function
-        .quantities()
-        .iter()
-        .map(|quantity| result(*quantity));
+    let arguments = program.arguments.iter().map(|argument| argument.name());
+    let quantities = program.function.quantities().iter();
     FunctionClaim {
         function: program.function.name().to_owned(),
         scene: scene.map(str::to_owned),
-        arguments: arguments.collect(),
-        results: results.collect(),
+        arguments: arguments.map(str::to_owned).collect(),
+        results: quantities.copied().map(result).collect(),
         steps,
         returns,
         ..FunctionClaim::default()
@@ -132,8 +116,7 @@ fn result(quantity: Quantity) -> String {
         quantity => (quantity, String::new()),
     };
     let mut functions = Function::ALL.iter();
-    let first = functions
-        .find(|function| function.quantities().contains(&of))
-        .map_or_else(String::new, |function| format!("{function}."));
-    format!("{first}{}{view}", of.field())
+    let first = functions.find(|function| function.quantities().contains(&of));
+    let prefix = first.map_or_else(String::new, |function| format!("{function}."));
+    format!("{prefix}{}{view}", of.field())
 }

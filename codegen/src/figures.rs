@@ -1,5 +1,4 @@
-//! Numbers in documentation and messages: short, and rounded to the side on which what they
-//! say stays true.
+//! Numbers in documentation and messages: short, and rounded to the side on which they stay true.
 
 /// The distance that a figure may have from the number, in units of its last digit.
 const ABOVE: i64 = 1;

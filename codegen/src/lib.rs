@@ -2,9 +2,8 @@
 //! scripts' `dalembert-build` and the command have in common.
 //!
 //! [`generate()`] does a [`Request`] for a robot. The items below are for users of the generator as a
-//! library; the other crates of the workspace, and the tests, use more by one door, `workspace`. The
-//! table in docs/architecture.md has the modules in the order of the stages: each uses those above
-//! it, never those below.
+//! library; the other crates of the workspace, and the tests, use more by one door, `workspace`.
+//! docs/architecture.md lists the modules in the order of the stages: each uses those above.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![cfg_attr(feature = "testing", warn(unreachable_pub))]
@@ -20,7 +19,6 @@ mod language;
 mod limbs;
 mod parallel;
 mod plan;
-
 mod program;
 mod random;
 mod robot_file;
@@ -34,7 +32,8 @@ mod task;
 mod tolerance;
 mod verify;
 mod watch;
-mod words;
+#[doc(hidden)]
+pub mod words;
 #[doc(hidden)]
 pub mod workspace;
 

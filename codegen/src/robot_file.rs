@@ -4,8 +4,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use dalembert_model::diagnostic::{Diagnostic, Diagnostics};
-use dalembert_model::read::{self, closest};
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics, closest};
+use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
@@ -66,18 +66,15 @@ impl RobotFile {
     }
 
     fn parse_bytes(bytes: &[u8], shown: &str) -> Result<RobotFile, Diagnostics> {
-        let source = String::from_utf8_lossy(bytes).into_owned();
-        match read::parse_bytes(bytes) {
-            Ok(reading) => Ok(RobotFile {
-                robot: reading.robot,
-                outputs: reading.outputs,
-                scenes: reading.scenes,
-                notes: reading.notes,
-                source,
-                plan: None,
-            }),
-            Err(errors) => Err(errors.in_file(shown)),
-        }
+        let reading = read::parse_bytes(bytes).map_err(|errors| errors.in_file(shown))?;
+        Ok(RobotFile {
+            robot: reading.robot,
+            outputs: reading.outputs,
+            scenes: reading.scenes,
+            notes: reading.notes,
+            source: String::from_utf8_lossy(bytes).into_owned(),
+            plan: None,
+        })
     }
 }
 
@@ -96,15 +93,12 @@ pub fn unreadable(path: &Path, shown: &str, error: &std::io::Error) -> Diagnosti
 fn meant(path: &Path, shown: &str) -> Option<String> {
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = parent.unwrap_or(Path::new("."));
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| name.ends_with(".toml"))
-        .collect();
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    let files = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut robots: Vec<String> = files.filter(|name| name.ends_with(".toml")).collect();
     // The order of a folder differs between machines.
-    names.sort();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    robots.sort();
+    let names: Vec<&str> = robots.iter().map(String::as_str).collect();
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     closest(&name, &names).map(|meant| match shown.strip_suffix(&*name) {
         Some(start) => format!("{start}{meant}"),

@@ -42,7 +42,6 @@ pub struct JointState {
 }
 
 impl JointState {
-    /// Makes a state from the entries of each argument.
     pub fn new(mut entries: impl FnMut(Argument) -> Vec<f64>) -> JointState {
         let mut state = JointState::default();
         for argument in Argument::ALL {
@@ -61,7 +60,6 @@ impl JointState {
         }
     }
 
-    /// Returns the entries of an argument.
     pub fn entries(&self, argument: Argument) -> &[f64] {
         match argument {
             Argument::Position => &self.q,
@@ -82,12 +80,9 @@ impl JointState {
         }
     }
 
-    /// True if all entries are finite.
     pub fn is_finite(&self) -> bool {
-        let mut entries = Argument::ALL
-            .iter()
-            .flat_map(|&argument| self.entries(argument));
-        entries.all(|x| x.is_finite())
+        let is_finite = |argument| self.entries(argument).iter().all(|x| x.is_finite());
+        Argument::ALL.into_iter().all(is_finite)
     }
 
     /// Returns an entry of an argument; NaN if the state has none, which reaches all that reads it.
@@ -96,7 +91,6 @@ impl JointState {
         entry.copied().unwrap_or(f64::NAN)
     }
 
-    /// Returns the entries of an argument, mutably.
     pub fn entries_mut(&mut self, argument: Argument) -> &mut Vec<f64> {
         match argument {
             Argument::Position => &mut self.q,
@@ -116,6 +110,27 @@ impl JointState {
             Argument::Payload => &mut self.payload,
         }
     }
+
+    /// Returns the nearest state of finite f32 numbers, with zero in place of NaN.
+    pub fn in_finite_single(&self) -> JointState {
+        let most = f64::from(f32::MAX);
+        self.each(|x| match x.is_nan() {
+            true => 0.0,
+            false => f64::from(x.clamp(-most, most) as f32),
+        })
+    }
+
+    /// Returns the state with each of its entries changed, but for a load.
+    pub(crate) fn each(&self, change: impl Fn(f64) -> f64) -> JointState {
+        let mut state = self.clone();
+        for argument in Argument::ALL {
+            if argument != Argument::Load {
+                let entries = state.entries_mut(argument).iter_mut();
+                entries.for_each(|x| *x = change(*x));
+            }
+        }
+        state
+    }
 }
 
 /// Entries of each argument, in the order of [`Argument::ALL`]; unread ones may be missing.
@@ -124,7 +139,6 @@ pub type State<T> = [Vec<T>; Argument::COUNT];
 /// The number of states of a measurement unless another is given.
 pub const STATES: usize = 200;
 
-/// The seed of a measurement.
 pub const SEED: u64 = 0xa1e3;
 
 /// Distinguishes the seed of the arguments that are no part of a state.
@@ -166,30 +180,6 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     states
 }
 
-impl JointState {
-    /// Returns the nearest state of finite f32 numbers, with zero in place of NaN.
-    pub fn in_finite_single(&self) -> JointState {
-        let most = f64::from(f32::MAX);
-        self.each(|x| match x.is_nan() {
-            true => 0.0,
-            false => f64::from(x.clamp(-most, most) as f32),
-        })
-    }
-
-    /// Returns the state with each of its entries changed, but for a load.
-    pub(crate) fn each(&self, change: impl Fn(f64) -> f64) -> JointState {
-        let mut state = self.clone();
-        for argument in Argument::ALL {
-            if argument == Argument::Load {
-                continue;
-            }
-            let entries = state.entries_mut(argument).iter_mut();
-            entries.for_each(|x| *x = change(*x));
-        }
-        state
-    }
-}
-
 /// Returns between which ends each joint's position is drawn.
 pub fn positions(robot: &Robot) -> Vec<[f64; 2]> {
     robot.joints.iter().map(position).collect()
@@ -206,9 +196,8 @@ fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
 
 fn base_range(robot: &Robot, argument: Argument, coordinate: usize) -> Option<[f64; 2]> {
     let limit = argument.limit().filter(|limit| *limit != Limit::Position)?;
-    let most = robot
-        .limit_of(coordinate, limit)
-        .map_or(argument.reach(), f64::nearest_rational);
+    let known = robot.limit_of(coordinate, limit);
+    let most = known.map_or(argument.reach(), f64::nearest_rational);
     Some([-most, most])
 }
 

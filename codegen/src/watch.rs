@@ -86,7 +86,6 @@ impl fmt::Debug for Watch {
 pub struct FunctionWatch<'a>(Option<(&'a Watch, Function)>);
 
 impl FunctionWatch<'_> {
-    /// Tells the observer.
     pub fn step(&self, part: Part, [round, rounds]: [usize; 2], best: Option<Counts>) {
         if let Some((Watch(Some(observer)), function)) = self.0 {
             observer.step(&Progress {
@@ -99,7 +98,6 @@ impl FunctionWatch<'_> {
         }
     }
 
-    /// True if the observer wants the search to end.
     pub fn is_over(&self) -> bool {
         self.0.is_some_and(|(watch, _)| watch.is_over())
     }

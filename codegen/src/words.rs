@@ -24,6 +24,8 @@ pub trait Word: Copy {
 }
 
 /// An enum whose variants have words: a line a variant, the default first.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! words {
     ($(#[$meta:meta])* pub enum $name:ident: $what:literal {
         $($(#[$doc:meta])* $variant:ident = $word:literal,)*
@@ -80,10 +82,7 @@ impl Word for bool {
     }
 }
 
-/// Returns the value of a word.
-///
-/// # Errors
-/// The word that was probably meant.
+/// Returns the value of a word, or else the word that was probably meant.
 pub fn parse<W: Word>(text: &str) -> Result<W, Diagnostic> {
     W::from_name(text).ok_or_else(|| {
         let message = format!("unknown {} `{text}`", W::WHAT);

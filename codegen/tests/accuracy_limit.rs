@@ -1,5 +1,4 @@
-//! The limit on rounding errors: what it refuses, what is taken instead, and
-//! that a robot's last digits do not decide.
+//! The limit on rounding errors: what it refuses and takes, whatever a robot's last digits.
 
 use std::ops::Range;
 
@@ -70,8 +69,7 @@ fn what_the_limit_costs_is_little_and_said() {
     assert!(few < more && (more - few) * 50 <= few, "{few} and {more}");
 }
 
-/// The cheapest D of this arm breaks the limit in one entry, and the program that keeps it in all
-/// of them has a larger largest error.
+/// The cheapest D breaks the limit in one entry, and what keeps it has a larger largest error.
 #[test]
 fn what_is_cheaper_and_more_exact_is_taken() {
     let file = source("j2s7s300", "");
@@ -123,14 +121,15 @@ fn rotors_of_random_arms_cost_few_digits(seeds: Range<u64>) {
             let program = &generated.functions[0].program;
             Rounding::estimate(&Setup::whole(&robot), program).worst()
         };
-        let auto_error = error(Start::Auto);
         let textbook = error(Start::Only(Formulation::NewtonEulerLink));
-        let most = 4.0 * textbook.max(4.0);
-        assert!(
-            auto_error <= most,
-            "seed {seed}: {auto_error} u, not {most}"
-        );
+        costs_few_digits(error(Start::Auto), textbook, &format!("seed {seed}"));
     }
+}
+
+#[track_caller]
+fn costs_few_digits(error: f64, textbook: f64, what: &str) {
+    let most = 4.0 * textbook.max(4.0);
+    assert!(error <= most, "{what}: {error} u, not {most}");
 }
 
 /// A robot, the output, and the inertia of the last joint's rotor.
@@ -158,11 +157,7 @@ fn heavy_rotors_cost_few_digits(cases: &[[&str; 3]]) {
             Rounding::estimate(&Setup::whole(case.robot()), program).worst()
         };
         let [default_error, textbook] = ["", "; formulation: newton_euler"].map(error);
-        let most = 4.0 * textbook.max(4.0);
         let what = format!("{name} {output} {armature}");
-        assert!(
-            default_error <= most,
-            "{what}: {default_error} u, not {most}"
-        );
+        costs_few_digits(default_error, textbook, &what);
     }
 }

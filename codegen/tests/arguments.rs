@@ -1,5 +1,4 @@
-//! Parameters of the robot that are arguments: a payload by its load, gravity. What
-//! is generated gives what the robot file with that payload, or that gravity, gives.
+//! A payload, by its load, and gravity as arguments: code gives what robot files with them give.
 
 use dalembert_codegen::workspace::{JointState, RunnableCode, Runtime};
 use dalembert_codegen::{Function, GeneratedCode, Request};
@@ -39,29 +38,44 @@ fn run(generated: &GeneratedCode, emitted: &RunnableCode, state: &JointState) ->
     emitted.run(&state)
 }
 
+/// Compares code with the runtimes of `plain` and of robots whose files have what the states give:
 /// 100 u of a vector's largest entry, or of a sixteenth of the largest met.
 #[track_caller]
+pub fn hold_in_files(
+    generated: &GeneratedCode,
+    states: &[JointState],
+    plain: &Request,
+    what: &str,
+    robot: impl Fn(&mut JointState) -> Robot,
+) {
+    let codes = generated.emitted.iter();
+    for emitted in codes.filter(|code| code.function != Function::Load) {
+        let function = emitted.function;
+        let compared = states.iter().map(|state| {
+            let mut state = state.in_scalar(emitted.scalar);
+            let merged = robot(&mut state);
+            let runtime = Runtime::in_scene(plain.prepare(&merged).unwrap());
+            let granted = runtime.granted(function, &state);
+            let expected = runtime.run(function, &state);
+            (run(generated, emitted, &state), expected, granted)
+        });
+        hold(emitted, &compared.collect::<Vec<_>>(), what);
+    }
+}
+
+#[track_caller]
 fn check(case: &Case, count: usize) {
-    let generated = case.rounds_well(count, &case.robot().name);
+    let name = &case.robot().name;
+    let generated = case.rounds_well(count, name);
     let (_, mut states) = case.runtime(count, 0x6c6f_6164);
     states[0].payload.fill(0.0);
     let plain = Request {
         scene: case.request.scene.clone(),
         ..Request::default()
     };
-    let codes = generated.emitted.iter();
-    for emitted in codes.filter(|code| code.function != Function::Load) {
-        let function = emitted.function;
-        let compared = states.iter().map(|state| {
-            let state = state.in_scalar(emitted.scalar);
-            let merged = in_the_file(case.robot(), &state);
-            let runtime = Runtime::in_scene(plain.prepare(&merged).unwrap());
-            let granted = runtime.granted(function, &state);
-            let expected = runtime.run(function, &state);
-            (run(&generated, emitted, &state), expected, granted)
-        });
-        hold(emitted, &compared.collect::<Vec<_>>(), "");
-    }
+    hold_in_files(&generated, &states, &plain, name, |state| {
+        in_the_file(case.robot(), state)
+    });
 }
 
 #[test]
@@ -90,12 +104,9 @@ fn a_payload_is_in_the_links_own_frame() {
     let case = Case::new("payload_frame", "", asked);
     check(&case, 10);
     // Any angle: numbers that are no permutation of others.
-    let tilted = support::source("payload_frame", "").replace(
-        "axis = [0, 1, 0]\nmass = 1\n",
-        "axis = [0.2, 0.9, -0.4]\nmass = 1\n",
-    );
+    let file = support::source("payload_frame", "");
+    let tilted = file.replace("[0, 1, 0]\nmass = 1\n", "[0.2, 0.9, -0.4]\nmass = 1\n");
     check(&Case::read(&tilted, asked), 10);
-
     let mut rows = Case::new("payload_frame", "", &format!("{asked}; scalar: f64"));
     let of_frames = rows.generated();
     let frame = rows.reading.robot.payload_frame.take().unwrap();

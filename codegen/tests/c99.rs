@@ -12,16 +12,15 @@ use crate::support::{Case, daily_and_campaign, every_output, path, rows};
 
 fn compare(name: &str, outputs: &str, states: usize) {
     let file = RobotFile::read(&path(&format!("../generated/robots/{name}.toml"))).unwrap();
-    for options in [
-        "together; batch: off",
-        "together; batch: on",
-        "polynomial; batch: on",
+    for (sines, batch) in [
+        ("together", "off"),
+        ("together", "on"),
+        ("polynomial", "on"),
     ] {
-        let asked = format!("{outputs}; sincos: {options}; language: c");
+        let asked = format!("{outputs}; sincos: {sines}; batch: {batch}; language: c");
         let mut case = Case::in_scene(name, "", &asked);
         case.request.plan.clone_from(&file.plan);
         let flags = ["-std=c99 -O0", "-O2", "-O3 -march=native"];
-        let (sines, _) = options.split_once(';').unwrap();
         same_bits(&format!("{name}_{sines}"), &case, states, &flags);
     }
 }
@@ -100,6 +99,19 @@ pub fn with_main(name: &str, text: &str, rest: &str) -> PathBuf {
     folder
 }
 
+/// Compiles a program, and runs it: it should end well.
+fn runs(name: &str, text: &str, main: &str) {
+    let folder = with_main(name, text, main);
+    for compiler in there(&["gcc", "clang"]) {
+        run(
+            compiler,
+            "-std=c99 -O2 arm.c -o program -lm".split(' '),
+            &folder,
+        );
+        run(folder.join("program").to_str().unwrap(), [], &folder);
+    }
+}
+
 const STRICT: &str = "-Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Werror -O2 \
     -fsyntax-only -x";
 
@@ -150,13 +162,10 @@ fn a_payload_is_a_body_and_no_load() {
         "#include <math.h>\nint main(void) {{\nint bad = 0;\n{}return bad;\n}}\n",
         tests.concat()
     );
-    let folder = with_main("payload", &text, &rest);
+    runs("payload", &text, &rest);
     let passed = "void f(const planar2r_OTHER_t *other, const double *q, double *c)\n\
         {\n    planar2r_gravity(q, other, c);\n}\n";
     for compiler in there(&["gcc", "clang"]) {
-        let flags = "-std=c99 -O2 arm.c -o payload -lm".split(' ');
-        run(compiler, flags, &folder);
-        run(folder.join("payload").to_str().unwrap(), [], &folder);
         for (other, is_taken) in [("load", true), ("payload", false)] {
             let main = passed.replace("OTHER", other);
             let folder = with_main(&format!("passed_{other}"), &text, &main);
@@ -168,8 +177,6 @@ fn a_payload_is_a_body_and_no_load() {
     }
 }
 
-/// One load for all states, and one a state, have the bits of the function of one state; bodies are put
-/// in their places.
 #[test]
 fn a_batch_has_one_load_or_one_a_state() {
     let asked =
@@ -211,15 +218,7 @@ int main(void) {
 }
 "#;
     let text = Case::new("planar2r", "", asked).generated().text();
-    let folder = with_main("loads", &text, main);
-    for compiler in there(&["gcc", "clang"]) {
-        run(
-            compiler,
-            "-std=c99 -O2 arm.c -o loads -lm".split(' '),
-            &folder,
-        );
-        run(folder.join("loads").to_str().unwrap(), [], &folder);
-    }
+    runs("loads", &text, main);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -254,13 +253,9 @@ fn processors_with_other_digits_are_refused() {
     let folder = with_main("x87", &text, "");
     for compiler in there(&["gcc"]) {
         for (flags, is_taken) in [("-O2", true), ("-O2 -mfpmath=387", false)] {
-            let flags = format!("{flags} -fsyntax-only arm.c");
             let mut command = Command::new(compiler);
-            let output = command
-                .args(flags.split(' '))
-                .current_dir(&folder)
-                .output()
-                .unwrap();
+            let flags = flags.split(' ').chain(["-fsyntax-only", "arm.c"]);
+            let output = command.args(flags).current_dir(&folder).output().unwrap();
             let said = String::from_utf8_lossy(&output.stderr);
             assert_eq!(output.status.success(), is_taken, "{said}");
             let is_said = said.contains("not rounded to their type");

@@ -35,32 +35,24 @@ const WAYS: [&str; 6] = [
     "uN-uN x+uN",
 ];
 
-/// Numbers steps: `uN` is the last one before, `uM` the last of the number, `uL` the
-/// one before `uN`.
+/// Numbers steps: `uN` is the last before, `uM` the last of the number, `uL` the one before `uN`.
 fn spelled(number: &str, way: &str) -> Vec<String> {
     let mut steps: Vec<String> = Vec::new();
     let push = |word: &str, base: usize, steps: &mut Vec<String>| {
         let last = steps.len();
-        let named = [("uN", last), ("uM", base), ("uL", last.saturating_sub(1))]
-            .map(|(name, step)| (name, format!("u{step}")));
-        let word = named.iter().fold(word.to_owned(), |word, (name, step)| {
-            word.replace(name, step)
-        });
-        steps.push(word);
+        let places = [("uN", last), ("uM", base), ("uL", last.saturating_sub(1))];
+        let names = places.map(|(name, step)| (name, format!("u{step}")));
+        let named = |word: String, (name, step): &(&str, String)| word.replace(name, step);
+        steps.push(names.iter().fold(word.to_owned(), named));
     };
     for word in number.split(' ') {
-        if let Some(times) = word.strip_prefix("SQUARED") {
-            for _ in 0..times.parse().unwrap() {
-                push("uN*uN", 0, &mut steps);
-            }
-        } else if let Some(times) = word.strip_prefix("DOUBLED") {
-            for _ in 0..times.parse().unwrap() {
-                for word in ["uN*uN", "uN+uN", "uN-{1}"] {
-                    push(word, 0, &mut steps);
-                }
-            }
-        } else {
-            push(word, 0, &mut steps);
+        let (words, times) = match (word.strip_prefix("SQUARED"), word.strip_prefix("DOUBLED")) {
+            (Some(times), _) => ("uN*uN", times),
+            (_, Some(times)) => ("uN*uN uN+uN uN-{1}", times),
+            _ => (word, "1"),
+        };
+        for _ in 0..times.parse().unwrap() {
+            words.split(' ').for_each(|word| push(word, 0, &mut steps));
         }
     }
     let base = steps.len();
@@ -70,23 +62,27 @@ fn spelled(number: &str, way: &str) -> Vec<String> {
     steps
 }
 
-/// Puts steps behind those of a file's function, and their last value in the place of a result.
-fn hidden(file: &Certified, added: &[String]) -> Certified {
-    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
-    let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
+/// Returns the steps of a claim's first function, and its results.
+pub fn steps_and_results(claim: &Value) -> [String; 2] {
     let function = &claim["functions"][0];
-    let [steps, returns] =
-        ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
-    let first = returns.split(' ').next().unwrap().to_owned();
-    let bare = first.trim_start_matches('-').to_owned();
+    ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned())
+}
+
+/// Puts steps behind those of a file's function, and their last value in the place of a result,
+/// which is `x` in them.
+pub fn hidden(file: &Certified, added: &[impl AsRef<str>]) -> Certified {
+    let mut claim = file.json();
+    let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
+    let [steps, returns] = steps_and_results(&claim);
+    let first = returns.split(' ').next().unwrap();
+    let bare = first.trim_start_matches('-');
     let count = steps.split(' ').count();
     let (mut words, mut lines) = (steps, String::new());
-    for (place, step) in added.iter().enumerate() {
-        let at = step.find(['+', '-', '*', '/']).unwrap();
+    for (place, step) in added.iter().map(AsRef::as_ref).enumerate() {
         // The sign of an exponent is in brackets.
         let at = match step.starts_with('{') {
             true => step.find('}').unwrap() + 1,
-            false => at,
+            false => step.find(['+', '-', '*', '/']).unwrap(),
         };
         let operands = [&step[..at], &step[at + 1..]];
         let mut both = operands.map(|word| match word.strip_prefix('{') {
@@ -100,13 +96,10 @@ fn hidden(file: &Certified, added: &[String]) -> Certified {
                 (format!("#{}", constants.len() - 1), format!("{value:?}"))
             }
             None => {
-                let step = word
-                    .strip_prefix('u')
-                    .map(|digits| digits.parse::<usize>().unwrap());
-                let word = match (step, word) {
-                    (Some(step), _) => format!("t{}", count + step),
-                    (None, "x") => bare.clone(),
-                    (None, word) => word.to_owned(),
+                let word = match word.strip_prefix('u') {
+                    Some(digits) => format!("t{}", count + digits.parse::<usize>().unwrap()),
+                    None if word == "x" => bare.to_owned(),
+                    None => word.to_owned(),
                 };
                 (word.clone(), word)
             }
@@ -119,14 +112,13 @@ fn hidden(file: &Certified, added: &[String]) -> Certified {
     let last = format!("t{}", count + added.len());
     let function = &mut claim["functions"][0];
     function["steps"] = json!(words);
-    function["returns"] = json!(returns.replacen(&bare, &last, 1));
+    function["returns"] = json!(returns.replacen(bare, &last, 1));
     claim["constants"] = json!(constants);
     let end = file.text.rfind(&format!("    [{first},")).unwrap();
     let (before, results) = file.text.split_at(end);
-    let results = results.replacen(&bare, &last, 1);
-    let mut other = file.with(&format!("{before}{lines}{results}"));
-    other.claim = claim.to_string();
-    other
+    let results = results.replacen(bare, &last, 1);
+    let other = file.with(&format!("{before}{lines}{results}"));
+    other.with_claim(&claim)
 }
 
 #[test]
@@ -136,27 +128,24 @@ fn numbers_that_cancel_are_not_shown() {
         assert_eq!(file.report().unwrap().passes(true), !divides, "{asked}");
         assert!(file.report().unwrap().passes(false), "{asked}");
         // With nothing hidden it is shown; but what divides has no steps that come back.
-        let same = hidden(&file, &["x*{3/4}".into(), "u1*{4/3}".into()]);
+        let same = hidden(&file, &["x*{3/4}", "u1*{4/3}"]);
         assert_eq!(same.refusal().is_some(), divides, "{asked}");
         for number in NUMBERS {
             for way in WAYS {
                 let other = hidden(&file, &spelled(number, way));
-                let why = other.refusal();
                 let what = format!("{asked}: {number}, then {way}: {}", other.text);
-                assert!(why.is_some(), "{what}");
+                assert!(other.refusal().is_some(), "{what}");
             }
         }
     }
 }
 
-/// Friction bends where speeds are small, and intervals see no more than that: in f32 the bound is
-/// above 1/64, and the user may accept it.
+/// Friction bends where speeds are small: in f32 the bound is above 1/64.
 #[test]
 fn a_bound_that_says_little_needs_the_users_word() {
     let asked = "inverse_dynamics_second_derivatives; scalar: f32";
     let file = &Certified::all("coulomb", "", asked)[0];
-    let why = file.refusal().unwrap();
-    assert!(why.contains("of its largest value, over 1.6e-2"), "{why}");
+    file.is_refused("of its largest value, over 1.6e-2");
     let passes = |worst: f64| {
         let demand = Demand {
             worst: Some(worst),
@@ -183,11 +172,10 @@ fn in_lanes(file: &Certified) -> Certified {
          let t900 = c1 * 8192.5;\n        let t901 = u1[0][l] + t900;\n        w1[0][l] = t901;\n    }}\n    \
          let t{name} = w1[0][0] - w1[0][1];"
     );
-    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
-    let mut constants: Vec<Value> = claim["constants"].as_array().unwrap().clone();
+    let mut claim = file.json();
+    let constants = claim["constants"].as_array_mut().unwrap();
+    let number = constants.len();
     constants.push(json!("16385/2"));
-    let number = constants.len() - 1;
-    claim["constants"] = json!(constants);
     // Four steps more stand before the difference.
     let moved = |word: &str| {
         let pieces = word.split_inclusive(['+', '-', '*', '/']);
@@ -200,9 +188,7 @@ fn in_lanes(file: &Certified) -> Certified {
         });
         moved.collect::<String>()
     };
-    let function = &mut claim["functions"][0];
-    let [steps, returns] =
-        ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
+    let [steps, returns] = steps_and_results(&claim);
     let mut steps: Vec<String> = steps.split(' ').map(moved).collect();
     let lane = |place: usize, operand: usize| {
         let first = name + 2 * place;
@@ -211,23 +197,17 @@ fn in_lanes(file: &Certified) -> Certified {
     steps[name - 1] = format!("t{}-t{}", name + 1, name + 3);
     let added = [lane(0, left), lane(1, right)].concat();
     steps.splice(name - 1..name - 1, added);
-    function["steps"] = json!(steps.join(" "));
     let returns: Vec<String> = returns.split(' ').map(moved).collect();
+    let function = &mut claim["functions"][0];
+    function["steps"] = json!(steps.join(" "));
     function["returns"] = json!(returns.join(" "));
-    let mut other = file.with(&file.text.replacen(line, &lanes, 1));
-    other.claim = claim.to_string();
-    other
+    let other = file.with(&file.text.replacen(line, &lanes, 1));
+    other.with_claim(&claim)
 }
 
 /// Lanes may compute the same value, but not one that cancels between them.
 #[test]
 fn numbers_that_cancel_between_lanes_are_not_shown() {
     let file = Certified::planar2r("forward_dynamics; scalar: f64");
-    let other = in_lanes(&file);
-    let why = other.refusal().unwrap();
-    assert!(
-        why.contains("with its like in other lanes"),
-        "{why}: {}",
-        other.text
-    );
+    in_lanes(&file).is_refused("with its like in other lanes");
 }

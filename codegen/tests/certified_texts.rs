@@ -1,18 +1,14 @@
 //! Files that a compiler reads otherwise than they look, and claims that a forger writes.
 
-use std::fs;
-
 use dalembert_checker::identity::table::Function;
 use serde_json::{Value, json};
 
 use crate::certified::Certified;
-use crate::support::{self, all_but_one_in, changes, daily_and_campaign, one_in, path, rows};
+use crate::certified_hidden::{hidden, steps_and_results};
+use crate::support::{self, all_but_one_in, changes, daily_and_campaign, one_in, rows, says, text};
 
 fn attack(name: &str) -> String {
-    fs::read_to_string(path(&format!(
-        "../crates/checker/tests/data/attacks/{name}"
-    )))
-    .unwrap()
+    text(&format!("../crates/checker/tests/data/attacks/{name}"))
 }
 
 fn planar2r(asked: &str, count: usize) -> Certified {
@@ -71,20 +67,10 @@ daily_and_campaign! {
 }
 
 fn lines_around_functions_that_are_something_else(is_tried: fn(usize) -> bool) {
-    const OTHERS: [&str; 9] = [
-        "const double t",
-        "//",
-        "/*",
-        "*",
-        "#",
-        "}",
-        "result",
-        "c[",
-        "return t",
-    ];
+    const OTHERS: &str = "const double t|//|/*|*|#|}|result|c[|return t";
     let is_around = |line: &str| {
         let words = line.trim();
-        !words.is_empty() && !OTHERS.iter().any(|start| words.starts_with(start))
+        !words.is_empty() && !OTHERS.split('|').any(|start| words.starts_with(start))
     };
     for options in ["together", "together; batch: on"] {
         let asked = "gravity, kinetic_energy, servo=inertia+gravity; scalar: f64; name: p";
@@ -113,13 +99,12 @@ fn items_that_are_not_generated() {
         let first = "pub const N: usize = 2;";
         file.refuses(&format!("{first} → {item}↵{first}"));
     }
-    file.refuses(
-        "
+    let constants = "
 pub const N: usize = 2; → pub const N: usize = 3;
 BASE_PARAMETERS: [f64;· → BASE_PARAMETERS: [f32;·
 ·BASE_PARAMETERS → ·PASSIVITY_PARAMETERS
-",
-    );
+";
+    file.refuses(constants);
     let values = file.text.find("BASE_PARAMETERS: [").unwrap();
     let (before, values) = file.text.split_at(values);
     let changed = values.replacen("\n    ", "\n    1", 1);
@@ -135,29 +120,25 @@ fn what_stands_beside_functions_has_no_room() {
 Payload([f64; → Payload(pub [f64; … (mass >= 0.0) → (mass >= -1.0) … 0.5000005 → 1.0
 ";
     for [from, to] in changes(table) {
-        assert!(file.text.contains(&from), "{from}");
+        says(&file.text, &from);
         let other = file.with(&file.text.replace(&from, &to));
         assert!(other.refusal().is_some(), "{from} → {to}");
     }
     let header = planar2r("regressor; scalar: f64; name: p; language: c", 1);
-    header.refuses(
-        "
+    let table = "
 ····pi[0] =· → ····pi[1] =· … ····pi[0] =· → ····return;↵····pi[0] =·
 pi[P_RESTRICT → pi[Q_RESTRICT … p_base_parameters( → p_passivity_parameters(
 p_base_parameters(double → p_base_parameters(float
-",
-    );
-    let load_header = planar2r(
-        "gravity; scalar: f64; name: p; parameters: payload; language: c",
-        2,
-    );
-    load_header.refuses(
-        "
+";
+    header.refuses(table);
+    let asked = "gravity; scalar: f64; name: p; parameters: payload; language: c";
+    let load_header = planar2r(asked, 2);
+    let table = "
 is_body = 0; → is_body = 1; … (mass >= 0.0) → (mass >= -1.0) … numbers[3]; → numbers[2];
 payload[10]; → payload[11]; … p_load_t; → p_payload_t; … payload->payload[0] = mass → numbers[0] = mass
 const p_load_t load[ → const double load[ … load->load[ → load->payload[
-",
-    );
+";
+    load_header.refuses(table);
     // A name that ends as the one of the box does is looked at.
     for asked in ["", "; name: p; language: c"] {
         let file = planar2r(&format!("gravity; scalar: f64{asked}"), 1);
@@ -170,10 +151,8 @@ const p_load_t load[ → const double load[ … load->load[ → load->payload[
 
 #[test]
 fn a_box_hides_nothing() {
-    let file = planar2r(
-        "gravity; scalar: f64; name: p; sincos: together; batch: on; language: c",
-        1,
-    );
+    let asked = "gravity; scalar: f64; name: p; sincos: together; batch: on; language: c";
+    let file = planar2r(asked, 1);
     let (before, behind) = file.text.split_at(file.text.rfind("#if ").unwrap());
     let evil =
         "static inline double p_evil_any(const int far, const double x)\n{\n    return x;\n}\n";
@@ -253,18 +232,12 @@ NONE := nothing is claimed of `gravity`
 #[test]
 fn claims_that_are_not_written_by_a_generator() {
     let file = planar2r("gravity, regressor; scalar: f64", 2);
-    let with = |claim: String| {
-        let mut other = file.clone();
-        other.claim = claim;
-        other.refusal().expect("shown")
-    };
-    let honest: Value = serde_json::from_str(&file.claim).unwrap();
+    let honest = file.json();
     let refused = |place: &str, value: Value, words: &str| {
         let mut claim = honest.clone();
         let (parent, key) = place.rsplit_once('/').unwrap();
         claim.pointer_mut(parent).unwrap()[key] = value;
-        let why = with(claim.to_string());
-        assert!(why.contains(words), "{place}: {why}");
+        file.with_claim(&claim).is_refused(words);
     };
     for [place, value, words] in rows(CLAIMS) {
         refused(&place, serde_json::from_str(&value).unwrap(), &words);
@@ -280,108 +253,59 @@ fn claims_that_are_not_written_by_a_generator() {
     let gravity = &honest["functions"][0];
     let twice = json!([gravity, gravity]);
     refused("/functions", twice, "is defined twice");
-    let mut other = file.with(&file.text.replace("pub fn gravity(", "pub fn pull("));
+    let other = file.with(&file.text.replace("pub fn gravity(", "pub fn pull("));
     let mut claim = honest.clone();
     claim["functions"][0]["function"] = json!("pull");
     claim["functions"][0]["results"] = json!([]);
-    other.claim = claim.to_string();
-    assert!(
-        other
-            .refusal()
-            .unwrap()
-            .contains("`pull`: it has no results")
-    );
+    other
+        .with_claim(&claim)
+        .is_refused("`pull`: it has no results");
     for cut in (0..file.claim.len() - 2).step_by(file.claim.len() / 40) {
-        with(file.claim[..cut].to_owned());
+        file.with_claim(&&file.claim[..cut]).is_refused("");
     }
-    let deep = with("[".repeat(100_000));
+    let deep = file.with_claim(&"[".repeat(100_000)).refusal().unwrap();
     assert!(deep.starts_with("claim: "), "{deep}");
-    let long = with(" ".repeat(200 << 20));
-    assert!(long.contains("more than"), "{long}");
+    file.with_claim(&" ".repeat(200 << 20))
+        .is_refused("more than");
 }
 
 #[test]
 fn constants_that_are_aimed_at_primes() {
     let file = planar2r("gravity; scalar: f64", 1);
     assert!(file.claim.contains("2943/200"), "the constant 14.715");
-    for digits in [
-        "0000000000000000001",
-        "00000000000000000000000000000000000000001",
-    ] {
-        let mut other = file.clone();
-        other.claim = file
-            .claim
-            .replacen("2943/200", &format!("14.715{digits}"), 1);
-        let why = other.refusal().unwrap();
-        assert!(why.contains("is not that of the robot"), "{why}");
+    for zeros in [18, 40] {
+        let constant = format!("14.715{}1", "0".repeat(zeros));
+        let other = file.with_claim(&file.claim.replacen("2943/200", &constant, 1));
+        other.is_refused("is not that of the robot");
     }
 }
 
 #[track_caller]
-fn refusal(file: &Certified, texts: &[[&str; 2]], claims: &[[&str; 2]]) -> String {
+fn with_changes(file: &Certified, texts: &[[&str; 2]], claims: &[[&str; 2]]) -> Certified {
     let changed = |text: &str, changes: &[[&str; 2]]| {
         changes.iter().fold(text.to_owned(), |text, [from, to]| {
-            assert!(text.contains(from), "{from}");
+            says(&text, from);
             text.replacen(from, to, 1)
         })
     };
-    let mut other = file.with(&changed(&file.text, texts));
-    other.claim = changed(&file.claim, claims);
-    other.refusal().expect("shown")
-}
-
-fn through(file: &Certified, more: &[(char, &str)]) -> Certified {
-    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
-    let constants = claim["constants"].as_array_mut().unwrap();
-    let numbers = constants.len()..;
-    constants.extend(more.iter().map(|step| json!(step.1)));
-    let function = &mut claim["functions"][0];
-    let word = |key: &str| function[key].as_str().unwrap().to_owned();
-    let (mut steps, returns, mut lines) = (word("steps"), word("returns"), String::new());
-    let first = returns.split(' ').next().unwrap();
-    let bare = first.trim_start_matches('-');
-    let (mut last, count) = (bare.to_owned(), steps.split(' ').count());
-    for (k, ((operation, literal), number)) in (count + 1..).zip(more.iter().zip(numbers)) {
-        steps += &format!(" {last}{operation}#{number}");
-        lines += &format!("    let t{k} = {last} {operation} {literal};\n");
-        last = format!("t{k}");
-    }
-    function["returns"] = json!(returns.replacen(bare, &last, 1));
-    function["steps"] = json!(steps);
-    let (before, results) = file
-        .text
-        .split_at(file.text.rfind(&format!("    [{first},")).unwrap());
-    let mut other = file.with(&format!(
-        "{before}{lines}{}",
-        results.replacen(bare, &last, 1)
-    ));
-    other.claim = claim.to_string();
-    other
+    let other = file.with(&changed(&file.text, texts));
+    other.with_claim(&changed(&file.claim, claims))
 }
 
 #[test]
 fn programs_that_lose_what_they_compute() {
-    let cancelled = [('+', "1e40"), ('-', "1e40")];
-    let overflown =
-        ["*", "*", "/", "/"].map(|operator| (operator.chars().next().unwrap(), "1e200"));
+    let cancelled = ["x+{1e40}", "u1-{1e40}"];
+    let overflown = ["x*{1e200}", "u1*{1e200}", "u2/{1e200}", "u3/{1e200}"];
     let dynamics = planar2r("forward_dynamics; scalar: f64", 1);
     for more in [&cancelled[..], &overflown] {
-        let why = through(&dynamics, more).refusal().expect("shown");
-        assert!(
-            why.contains("may hide a number") || why.contains("has no bound"),
-            "{why}"
-        );
+        let why = hidden(&dynamics, more).refusal().expect("shown");
+        let mut reasons = ["may hide a number", "has no bound"].iter();
+        assert!(reasons.any(|reason| why.contains(reason)), "{why}");
     }
     let gravity = planar2r("gravity; scalar: f64; sincos: polynomial", 1);
-    let why = through(&gravity, &cancelled).refusal().expect("shown");
-    assert!(why.contains("has a bound of"), "{why}");
-    let slide = Certified::of(
-        SLIDE,
-        None,
-        "outputs: inverse_dynamics; scalar: f64; parameters: payload",
-    )
-    .remove(0);
-    slide.is_shown(2, "slide");
+    hidden(&gravity, &cancelled).is_refused("has a bound of");
+    let asked = "outputs: inverse_dynamics; scalar: f64; parameters: payload";
+    let slide = Certified::shown(SLIDE, None, asked, 2);
     let text = [
         ["payload[0] + 1.0", "payload[0] + 1e17"],
         [
@@ -397,7 +321,7 @@ fn programs_that_lose_what_they_compute() {
             "load[0]-#1 t1+#0 qdd[0]*t2\",\"returns\":\"t3",
         ],
     ];
-    assert!(refusal(&slide, &text, &claims).contains("has a bound of"));
+    with_changes(&slide, &text, &claims).is_refused("has a bound of");
     let text =
         "payload[0] * 1.7e308;\n    let t2 = t1 / 1.7e308;\n    let t3 = t2 + 1.0;\n    Load([t3])";
     let text = [["payload[0] + 1.0;\n    Load([t1])", text]];
@@ -408,21 +332,12 @@ fn programs_that_lose_what_they_compute() {
             "payload[0]*#1 t1/#1 t2+#0\",\"returns\":\"t3",
         ],
     ];
-    refusal(&slide, &text, &claims);
+    with_changes(&slide, &text, &claims).is_refused("");
     // Without what computes it, nobody knows which load a function takes.
-    let (before, behind) = slide
-        .text
-        .split_at(slide.text.find("pub fn load(").unwrap());
-    let other = slide.with(&format!(
-        "{before}{}",
-        &behind[behind.find("pub fn inverse").unwrap()..]
-    ));
-    assert!(
-        other
-            .refusal()
-            .unwrap()
-            .contains("without the function `load`")
-    );
+    let (before, behind) = slide.text.split_once("pub fn load(").unwrap();
+    let (_, behind) = behind.split_once("pub fn inverse").unwrap();
+    let other = slide.with(&format!("{before}pub fn inverse{behind}"));
+    other.is_refused("without the function `load`");
 }
 
 const SLIDE: &str = "name = \"slide\"
@@ -439,11 +354,13 @@ inertia = [0.1, 0.1, 0.1, 0, 0, 0]
 #[test]
 fn programs_that_go_wrong_somewhere() {
     let file = planar2r("gravity, regressor; scalar: f64", 2);
-    let why = |texts: &[[&str; 2]], claims: &[[&str; 2]]| refusal(&file, texts, claims);
+    let refused = |texts: &[[&str; 2]], claims: &[[&str; 2]], words: &str| {
+        with_changes(&file, texts, claims).is_refused(words);
+    };
     let result = "    [-t6, -t4]";
     let quotient = "    let t7 = s1 / s1;\n    let t8 = t6 * t7;\n    [-t8, -t4]";
     let claims = [["t4-t5", "t4-t5 s1/s1 t6*t7"], ["-t6 -t4", "-t8 -t4"]];
-    assert!(why(&[[result, quotient]], &claims).contains("it divides"));
+    refused(&[[result, quotient]], &claims, "it divides");
     let far = "    let t7 = t6 * 1e200;\n    let t8 = t7 * 1e200;\n    let t9 = t8 * 1e-200;
     let t10 = t9 * 1e-200;\n    [-t10, -t4]";
     let claims = [
@@ -451,52 +368,46 @@ fn programs_that_go_wrong_somewhere() {
         ["t4-t5", "t4-t5 t6*#9 t7*#9 t8*#10 t9*#10"],
         ["-t6 -t4", "-t10 -t4"],
     ];
-    assert!(why(&[[result, far]], &claims).contains("has a bound of"));
+    refused(&[[result, far]], &claims, "has a bound of");
     let sines = ["libm::sincos(q[0])", "{ (0.0, 1.0) }"];
-    assert!(why(&[sines], &[]).contains("has a bound of"));
+    refused(&[sines], &[], "has a bound of");
     let head = ["fn gravity(q:", "fn held(_qd:"];
     let claims = [["\"gravity\"", "\"held\""], ["[\"q\"]", "[\"qd\"]"]];
-    assert!(why(&[head], &claims).contains("no result of it takes `qd`"));
-    let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
+    refused(&[head], &claims, "no result of it takes `qd`");
+    let mut claim = file.json();
     let mut other = claim["functions"][1].clone();
     other["function"] = json!("other");
     other["symbols"] = json!([]);
     other["values"] = json!("#2 #6 #3 #7 #8 #3");
     claim["functions"].as_array_mut().unwrap().push(other);
     let value = "1.3333333333333333,";
-    assert!(file.text.contains(value));
-    let mut other = file.with(&file.text.replacen(value, "9.81,", 1));
-    other.claim = claim.to_string();
-    let why = other.refusal().unwrap();
-    assert!(why.contains("it does not follow"), "{why}");
+    says(&file.text, value);
+    let other = file.with(&file.text.replacen(value, "9.81,", 1));
+    other.with_claim(&claim).is_refused("it does not follow");
 }
 
 #[test]
 fn boxes_and_modules() {
     let asked = "gravity; scalar: f64; sincos: polynomial";
     let rust = planar2r(asked, 1);
-    rust.refuses(
-        "
+    let table = "
 [-3.141592653589793, 3.141592653589793], → [f64::NEG_INFINITY, f64::INFINITY],
 [-3.141592653589793, 3.141592653589793], → [-3.141592653589793, 4.0],
 ····let inside = inside & (BOX.q[0][0] <= q[0]) & (q[0] <= BOX.q[0][1]);↵ → ∅
 ····inside↵} → ····let inside = true;↵····inside↵}
-",
-    );
+";
+    rust.refuses(table);
     let c = planar2r(&format!("{asked}; name: p; language: c"), 1);
-    c.refuses(
-        "
+    let table = "
 inside = 0 → inside = 1 … return inside → return 1
 q[0] <= 3.141592653589793 → q[0] <= 4.0 … q[0] <= 3 → q[1] <= 3
 int p_in_box( → int P_in_box(
-",
-    );
+";
+    c.refuses(table);
     let is_code = |line: &&str| !line.starts_with("//") && !line.starts_with("#![");
-    let body: Vec<&str> = rust.text.lines().filter(is_code).collect();
-    let [module, body] = [
-        format!("pub mod a {{\n{}\n}}\n", body.join("\n")),
-        body.join("\n"),
-    ];
+    let lines: Vec<&str> = rust.text.lines().filter(is_code).collect();
+    let body = lines.join("\n");
+    let module = format!("pub mod a {{\n{body}\n}}\n");
     assert_eq!(rust.with(&module).refusal(), None);
     assert!(rust.with(&format!("{module}{module}")).refusal().is_some());
     assert!(rust.with(&format!("{module}{body}")).refusal().is_some());
@@ -505,10 +416,8 @@ int p_in_box( → int P_in_box(
     let header = planar2r(asked, 1);
     let [text, claim] =
         [&header.text, &header.claim].map(|content| content.replace("p_gravity", "p_sines_3"));
-    let mut other = header.with(&text);
-    other.claim = claim;
-    let why = other.refusal().unwrap();
-    assert!(why.contains("not generated code"), "{why}");
+    let other = header.with(&text).with_claim(&claim);
+    other.is_refused("not generated code");
 }
 
 /// Names are shortened, but not to the name of a function of another frame.
@@ -517,15 +426,11 @@ fn functions_of_frames_keep_their_names() {
     let frames = "[[frame]]\nname = \"foot\"\nlink = 1\n[[frame]]\nname = \"foot2\"\nlink = 2\n";
     let robot = support::source("planar2r", "") + frames;
     let asked = "outputs: jacobian@foot, jacobian@foot2; scalar: f64; batch: on; language: c";
-    let file = Certified::of(&robot, None, asked).remove(0);
-    file.is_shown(2, asked);
+    let file = Certified::shown(&robot, None, asked, 2);
     for (end, name) in [("_batch(", "the batch"), ("(", "the function")] {
         let [one, other] = ["foot", "foot2"].map(|frame| format!("jacobian_{frame}{end}"));
-        let text = file
-            .text
-            .replace(&one, "jacobian_fot(")
-            .replace(&other, &one)
-            .replace("jacobian_fot(", &format!("jacobian_fot{end}"));
+        let shortened = file.text.replace(&one, &format!("jacobian_fot{end}"));
+        let text = shortened.replace(&other, &one);
         assert_ne!(text, file.text);
         assert!(file.with(&text).refusal().is_some(), "{name}");
     }
@@ -535,19 +440,14 @@ fn functions_of_frames_keep_their_names() {
 fn files_of_attacks() {
     let pend = attack("pend.toml");
     let asked = "outputs: gravity, forward_dynamics; scalar: f64";
-    let [rust, c] = ["", "; name: two; language: c"].map(|more| {
-        let file = Certified::of(&pend, None, &format!("{asked}{more}")).remove(0);
-        file.is_shown(2, more);
-        file
-    });
+    let [rust, c] = ["", "; name: two; language: c"]
+        .map(|more| Certified::shown(&pend, None, &format!("{asked}{more}"), 2));
+    let grammar = "not of the grammar: `q` expected";
+    let derived = "not generated code: `#[derive(Clone, Copy, Debug, Default";
     for (file, name, words) in [
-        (&rust, "ulp.rs.txt", "not of the grammar: `q` expected"),
-        (&rust, "far32.rs.txt", "not of the grammar: `q` expected"),
-        (
-            &rust,
-            "trait1.rs.txt",
-            "not generated code: `#[derive(Clone, Copy, Debug, Default",
-        ),
+        (&rust, "ulp.rs.txt", grammar),
+        (&rust, "far32.rs.txt", grammar),
+        (&rust, "trait1.rs.txt", derived),
         (&rust, "n1.rs.txt", ""),
         (&c, "hide.h", ""),
     ] {
@@ -563,12 +463,12 @@ fn files_of_attacks() {
 fn joints_without_limits_have_no_tolerance() {
     let robot = attack("r2_conf.toml");
     let asked = "outputs: coriolis; scene: pick; scalar: f64";
-    let mut file = Certified::of(&robot, Some("pick"), asked).remove(0);
+    let file = Certified::of(&robot, Some("pick"), asked).remove(0);
     assert_eq!(file.refusal(), None);
-    file.robot = robot.replacen("velocity = 2, ", "", 1);
-    assert_ne!(file.robot, robot);
-    let why = file.refusal().unwrap();
-    assert!(why.contains("a tolerance needs the range of `qd`"), "{why}");
+    let other = robot.replacen("velocity = 2, ", "", 1);
+    assert_ne!(other, robot);
+    file.with_robot(&other)
+        .is_refused("a tolerance needs the range of `qd`");
 }
 
 /// Callers may give any number for a joint that is locked.
@@ -579,24 +479,21 @@ fn joints_that_are_locked_are_not_read() {
     for more in ["", tolerance] {
         let scene = format!("lock = {{ 2 = 0.3 }}{more}");
         let asked = "inverse_dynamics; scalar: f64; sincos: libm";
-        let mut file = Certified::all("planar3r", &scene, asked).remove(0);
+        let file = Certified::all("planar3r", &scene, asked).remove(0);
         assert_eq!(file.refusal(), None);
-        let mut claim: Value = serde_json::from_str(&file.claim).unwrap();
-        let function = &mut claim["functions"][0];
-        let [steps, returns] =
-            ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
+        let mut claim = file.json();
+        let [steps, returns] = steps_and_results(&claim);
         let count = steps.split(' ').count();
         let mut words = returns.split(' ');
         let first = words.find(|word| word.starts_with('t')).unwrap();
         let [square, sum] = [count + 1, count + 2].map(|step| format!("t{step}"));
+        let function = &mut claim["functions"][0];
         function["steps"] = format!("{steps} qd[1]*qd[1] {first}+{square}").into();
         function["returns"] = returns.replacen(first, &sum, 1).into();
-        file.claim = claim.to_string();
-        let last = file.text.rfind("    [").unwrap();
-        let (before, results) = file.text.split_at(last);
+        let (before, results) = file.text.split_at(file.text.rfind("    [").unwrap());
         let lines = format!("let {square} = qd[1] * qd[1];\n    let {sum} = {first} + {square};");
-        file.text = format!("{before}    {lines}\n{}", results.replacen(first, &sum, 1));
-        let why = file.refusal().unwrap();
-        assert!(why.contains("it reads a joint that is locked"), "{why}");
+        let text = format!("{before}    {lines}\n{}", results.replacen(first, &sum, 1));
+        let other = file.with(&text).with_claim(&claim);
+        other.is_refused("it reads a joint that is locked");
     }
 }

@@ -9,17 +9,17 @@ use std::sync::LazyLock;
 
 use dalembert_checker::certify::ResultBound;
 use dalembert_codegen::workspace::{
-    JointState, Library, Node, Random, Runtime, Setup, Variant, keep,
+    JointState, Library, Node, Random, Runtime, Setup, Variant,
     testing::{InputBox, Interval},
 };
-use dalembert_codegen::{Function, GeneratedCode, Plan, generate};
+use dalembert_codegen::{Function, Plan, generate};
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::read::parse;
 use dalembert_model::scalar::Scalar;
 use serde_json::Value;
 
 use crate::certified::Certified;
-use crate::support::{Case, daily_and_campaign, largest, read};
+use crate::support::{self, Case, daily_and_campaign, largest, read};
 
 const DAILY: Range<usize> = 0..25;
 const OTHERS: Range<usize> = 25..100;
@@ -61,15 +61,10 @@ scalar = "f64"
 tolerance = { value = 5e-2, relative_to = "actuator" }
 "#;
 
-fn variant(generated: &GeneratedCode) -> &Variant {
-    let admitted = generated.functions[0].admitted.as_ref().unwrap();
-    &admitted.variants[0]
-}
-
 static HONEST: LazyLock<[Variant; 3]> = LazyLock::new(|| {
     let [libm, polynomial] = ["libm", "polynomial"].map(|sincos| {
         let case = Case::read(ROBOT, &format!("scene: pick; sincos: {sincos}"));
-        variant(&case.generated()).clone()
+        support::variants(&case.generated())[0].clone()
     });
     let together = Variant {
         library: Library::Together,
@@ -79,10 +74,8 @@ static HONEST: LazyLock<[Variant; 3]> = LazyLock::new(|| {
 });
 
 fn variants() -> Vec<Certified> {
-    let files = HONEST
-        .iter()
-        .map(|variant| Certified::variant(ROBOT, variant));
-    files.collect()
+    let file = |variant| Certified::variant(ROBOT, variant);
+    HONEST.iter().map(file).collect()
 }
 
 /// Names are looked up in a map, blocks are entered as they come: it knows no program.
@@ -104,9 +97,8 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
         }
         let Some(rest) = line.strip_prefix("let ") else {
             let words = line.trim_matches(['(', ')', '[', ']']).split(", ");
-            let values: Vec<f64> = words
-                .map(|word| value(word, &names))
-                .collect::<Option<_>>()?;
+            let results: Option<Vec<f64>> = words.map(|word| value(word, &names)).collect();
+            let values = results?;
             match pending.take() {
                 Some(targets) => names.extend(targets.into_iter().zip(values)),
                 None => return Some(values),
@@ -114,13 +106,10 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
             continue;
         };
         let (left, right) = rest.split_once(" = ")?;
-        let targets: Vec<String> = left
-            .trim_matches(['(', ')'])
-            .split(", ")
-            .map(|name| name.trim_matches(['[', ']']).to_owned())
-            .collect();
+        let words = left.trim_matches(['(', ')']).split(", ");
+        let targets = words.map(|name| name.trim_matches(['[', ']']).to_owned());
         if right == "{" {
-            pending = Some(targets);
+            pending = Some(targets.collect());
             continue;
         }
         let right = right.strip_suffix(';')?;
@@ -134,11 +123,12 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
                 _ => return None,
             }
         } else if let Some(call) = right.strip_prefix("dalembert_sines::sincos(&[") {
-            let angles = call.strip_suffix("])")?.split(", ");
-            let pairs: Vec<(f64, f64)> = angles
-                .map(|angle| value(angle, &names).map(libm::sincos))
-                .collect::<Option<_>>()?;
-            let (sines, cosines): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
+            let (mut sines, mut cosines) = (Vec::new(), Vec::new());
+            for angle in call.strip_suffix("])")?.split(", ") {
+                let (sin, cos) = libm::sincos(value(angle, &names)?);
+                sines.push(sin);
+                cosines.push(cos);
+            }
             [sines, cosines].concat()
         } else {
             let words: Vec<&str> = right.split(' ').collect();
@@ -154,7 +144,7 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
             }
             vec![result]
         };
-        names.extend(targets.into_iter().zip(values));
+        names.extend(targets.zip(values));
     }
     None
 }
@@ -207,11 +197,8 @@ fn is_refused(file: &Certified) -> bool {
     let Some(results) = shown(file) else {
         return true;
     };
-    let (text, claim) = (&file.text, &file.claim);
-    assert!(
-        is_true(file, &results),
-        "accepted, and false:\n{text}\n{claim}"
-    );
+    let what = format!("accepted, and false:\n{}\n{}", file.text, file.claim);
+    assert!(is_true(file, &results), "{what}");
     false
 }
 
@@ -237,34 +224,25 @@ fn claims(
     let honest = variants();
     let mut random = Random::new(0xbad);
     let refused = (0..mutations.end).filter(|index| {
-        let mut file = honest[index % honest.len()].clone();
-        let mut json: Value = serde_json::from_str(&file.claim).unwrap();
+        let file = &honest[index % honest.len()];
+        let mut json = file.json();
         let place = one_of(&places(&json, "", &pick), &mut random).clone();
         let value = json.pointer_mut(&place).unwrap();
         *value = with(value, &mut random);
-        file.claim = json.to_string();
-        mutations.contains(index) && is_refused(&file)
+        mutations.contains(index) && is_refused(&file.with_claim(&json))
     });
     refused.count()
 }
 
 fn places(value: &Value, path: &str, pick: &impl Fn(&str, &Value) -> bool) -> Vec<String> {
-    let parts: Vec<(String, &Value)> = match value {
-        Value::Array(elements) => (0..)
-            .map(|index: usize| index.to_string())
-            .zip(elements)
-            .collect(),
-        Value::Object(fields) => fields
-            .iter()
-            .map(|(key, part)| (key.clone(), part))
-            .collect(),
-        _ => Vec::new(),
-    };
-    let place = pick(path, value).then(|| path.to_owned());
-    let parts = parts
-        .iter()
-        .flat_map(|(key, part)| places(part, &format!("{path}/{key}"), pick));
-    place.into_iter().chain(parts).collect()
+    let mut paths = Vec::from_iter(pick(path, value).then(|| path.to_owned()));
+    for (index, part) in value.as_array().into_iter().flatten().enumerate() {
+        paths.extend(places(part, &format!("{path}/{index}"), pick));
+    }
+    for (key, part) in value.as_object().into_iter().flatten() {
+        paths.extend(places(part, &format!("{path}/{key}"), pick));
+    }
+    paths
 }
 
 #[test]
@@ -298,14 +276,12 @@ daily_and_campaign! {
 /// Operations and their operands: one in ten is the same again, or within the tolerance.
 fn operations(mutations: &Range<usize>) {
     let refused = programs(mutations, |nodes, random| {
-        let applied: Vec<_> = nodes
-            .iter()
-            .enumerate()
-            .filter_map(|(place, node)| match node {
-                Node::Apply(operation, _) => Some((place, *operation)),
-                _ => None,
-            })
-            .collect();
+        let numbered = nodes.iter().enumerate();
+        let operations = numbered.filter_map(|(place, node)| match node {
+            Node::Apply(operation, _) => Some((place, *operation)),
+            _ => None,
+        });
+        let applied: Vec<_> = operations.collect();
         let (place, _) = *one_of(&applied, random);
         let Node::Apply(operation, operands) = &mut nodes[place] else {
             return;
@@ -318,26 +294,17 @@ fn operations(mutations: &Range<usize>) {
     assert!(refused >= mutations.len() * 6 / 10, "{refused}");
 }
 
-/// Constants, changed by a share; half of the changes matter less than the tolerance.
+/// Constants, changed by one part in so many; half of the changes matter less than the tolerance.
 fn constants(mutations: &Range<usize>) {
-    const SHARES: [[i64; 2]; 6] = [
-        [1, 1_000_000_000],
-        [1, 1000],
-        [1, 100],
-        [1, 10],
-        [-1, 2],
-        [1, 1],
-    ];
+    const PARTS: [i64; 6] = [1_000_000_000, 1000, 100, 10, -2, 1];
     let refused = programs(mutations, |nodes, random| {
-        let [over, under] = *one_of(&SHARES, random);
-        let factor = Exact::from(Rational::new((over + under).into(), under.into()));
-        let mut constants: Vec<&mut Exact> = nodes
-            .iter_mut()
-            .filter_map(|node| match node {
-                Node::Constant(constant) => Some(constant),
-                _ => None,
-            })
-            .collect();
+        let parts = *one_of(&PARTS, random);
+        let factor = Exact::from(Rational::new((parts + 1).into(), parts.into()));
+        let numbers = nodes.iter_mut().filter_map(|node| match node {
+            Node::Constant(constant) => Some(constant),
+            _ => None,
+        });
+        let mut constants: Vec<&mut Exact> = numbers.collect();
         let place = random.below(constants.len());
         *constants[place] = constants[place].mul(&factor);
     });
@@ -368,11 +335,8 @@ fn words(mutations: &Range<usize>) {
 fn scenes(mutations: &Range<usize>) {
     let honest = variants();
     let mut random = Random::new(0x5ce2e);
-    let digits: Vec<usize> = ROBOT
-        .char_indices()
-        .filter(|(_, c)| c.is_ascii_digit())
-        .map(|(at, _)| at)
-        .collect();
+    let is_digit = |at: &usize| ROBOT.as_bytes()[*at].is_ascii_digit();
+    let digits: Vec<usize> = (0..ROBOT.len()).filter(is_digit).collect();
     let (mut tried, mut refused) = (0, 0);
     while tried < mutations.end {
         let at = *one_of(&digits, &mut random);
@@ -394,10 +358,8 @@ fn scenes(mutations: &Range<usize>) {
 
 fn other_word(text: &str, random: &mut Random, words: &str) -> String {
     let is_word = |c: char| !c.is_whitespace() && !"\"{}:,".contains(c);
-    let tokens: Vec<&str> = text
-        .split(|c| !is_word(c))
-        .filter(|token| !token.is_empty())
-        .collect();
+    let parts = text.split(|c| !is_word(c));
+    let tokens: Vec<&str> = parts.filter(|token| !token.is_empty()).collect();
     let old = *one_of(&tokens, random);
     let place = old.as_ptr() as usize - text.as_ptr() as usize;
     let words: Vec<&str> = words.split(' ').collect();
@@ -409,7 +371,7 @@ fn plans(mutations: &Range<usize>) {
     let words = "t1+t2 t2*#1 t7-t1 qd[1]*qd[1] s1*#0 c2-#2 s3*c2 #0 1/2 2 -t1 t2 t9 -7 [] 0 f32 \
         gravity q load planned returns";
     let mut case = Case::read(ROBOT, "scene: pick; sincos: libm");
-    let mut plan = keep(case.robot(), &case.request, &case.generated(), None).plan;
+    let mut plan = case.plan(&case.generated());
     for entry in &mut plan.entries {
         entry.passes.clear();
     }
@@ -421,18 +383,16 @@ fn plans(mutations: &Range<usize>) {
         if !mutations.contains(&index) {
             continue;
         }
-        case.request.plan = Plan::parse(&changed).ok();
-        if case.request.plan.is_none() {
+        let code = Plan::parse(&changed).ok().and_then(|plan| {
+            case.request.plan = Some(plan);
+            generate(case.robot(), &case.request).ok()
+        });
+        let Some(generated) = code else {
             refused += 1;
             continue;
-        }
-        match generate(case.robot(), &case.request) {
-            Err(_) => refused += 1,
-            Ok(generated) => {
-                let file = Certified::variant(ROBOT, variant(&generated));
-                assert!(!is_refused(&file), "{changed}");
-            }
-        }
+        };
+        let file = Certified::variant(ROBOT, &support::variants(&generated)[0]);
+        assert!(!is_refused(&file), "{changed}");
     }
     assert!(refused >= mutations.len() / 3, "{refused}");
 }

@@ -107,34 +107,23 @@ daily_and_campaign! {
     second_derivatives_cost_half_of_casadi_s: (SECOND[0]), (SECOND[1]);
 }
 
-fn torques(table: &str) {
-    check(table);
-}
-
-fn derivatives_poses_and_matrices(table: &str) {
-    check(table);
-}
-
-fn second_derivatives_cost_half_of_casadi_s(table: &str) {
-    check(table);
-}
+use self::{
+    check as derivatives_poses_and_matrices, check as second_derivatives_cost_half_of_casadi_s,
+    check as torques,
+};
 
 #[test]
 fn scenes() {
-    check(
-        r#"
+    let table = r#"
 puma560 | lock = { 4 = 0, 5 = 0, 6 = 0 }; velocity = "zero"; joints = [1, 2, 3] | inverse_dynamics | 62/2
 puma560 | lock = { 1 = 0, 4 = 0, 6 = 0 }; joints = [2, 3, 5] | inverse_dynamics | 61/3
-"#,
-    );
+"#;
+    check(table);
 }
 
 fn bundles_share_work(table: &str) {
     for [file, asked, most] in rows(table) {
-        let most = match most.as_str() {
-            "" => usize::MAX,
-            most => most.parse().unwrap(),
-        };
+        let most = most.parse().unwrap_or(usize::MAX);
         let whole = operations(&file, &asked);
         let parts = asked.split(['=', '+']).skip(1);
         let sum: usize = parts.map(|part| operations(&file, part)).sum();
@@ -149,10 +138,8 @@ fn operations(file: &str, outputs: &str) -> usize {
 
 #[test]
 fn what_is_not_asked_for_is_not_computed() {
-    let outputs = "jacobian@camera jacobian@camera:angular jacobian@elbow".split(' ');
-    let counts: Vec<usize> = outputs
-        .map(|output| operations("frames/puma560", output))
-        .collect();
-    let is_less = counts[1] < counts[0] && 2 * counts[2] < counts[0];
-    assert!(is_less, "{counts:?}");
+    let at = |frame: &str| operations("frames/puma560", &format!("jacobian@{frame}"));
+    let [camera, angular, elbow] = ["camera", "camera:angular", "elbow"].map(at);
+    let is_less = angular < camera && 2 * elbow < camera;
+    assert!(is_less, "{camera} {angular} {elbow}");
 }

@@ -13,7 +13,7 @@ use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::Field;
 
-use crate::support::{self, Case, in_scene, rows};
+use crate::support::{self, Case, in_scene, rows, says};
 
 fn cases(robots: &str, outputs: &str) -> Vec<(Case, Program)> {
     let mut cases = Vec::new();
@@ -66,12 +66,8 @@ fn faults(step: &Step) -> Vec<(&'static str, Step)> {
     }
     if let Operand::Constant(constant) = &step.right {
         let false_one = constant.add(&Exact::from(Rational::from_integer(Field::P.into())));
-        let print = |x: &Exact| Points::SEARCH.constant(x);
-        assert_eq!(
-            print(constant),
-            print(&false_one),
-            "no difference to the search"
-        );
+        let [right, wrong] = [constant, &false_one].map(|x| Points::SEARCH.constant(x));
+        assert_eq!(right, wrong, "no difference to the search");
         faults.push(("ulp", with_right(ulp(constant))));
         faults.push(("prime", with_right(false_one)));
     }
@@ -230,7 +226,7 @@ fn a_wrong_digit_shows_at_a_state() {
         };
         *constant = constant.add(&tiny);
         let error = run_exactly(&reference, &function).unwrap_err().to_string();
-        assert!(error.contains("it passed its proof"), "{index}: {error}");
+        says(&error, "it passed its proof");
         function.program = program;
         planted += 1;
     }

@@ -1,14 +1,13 @@
 //! Products that are fused with sums: which they are, how they are rounded, and certificates of
-//! them; certificates of sines that are taken together. `values` and `golden` have their numbers,
-//! `text` lines that say something else.
+//! them; certificates of sines that are taken together.
 
 use dalembert_codegen::workspace::{
-    Argument, Code, JointState, Library, Setup, Signature, Sizes, Variant, keep, testing::Rounding,
+    Argument, Code, JointState, Library, Setup, Signature, Sizes, testing::Rounding,
 };
-use dalembert_codegen::{Function, GeneratedCode, ScalarType};
+use dalembert_codegen::{Function, ScalarType};
 
 use crate::certified::Certified;
-use crate::support::{self, Case};
+use crate::support::{self, Case, says, variants};
 
 #[test]
 fn a_fused_product_saves_an_operation_and_a_rounding() {
@@ -74,12 +73,8 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
             [t6 * t4, -t6]
         }};
     }
-    let states: Vec<JointState> = (0..200)
-        .map(|k| JointState {
-            q: vec![f64::from(k as f32 * 0.03 - 3.0), 0.0],
-            ..JointState::default()
-        })
-        .collect();
+    let state = |k| JointState::at_rest(vec![f64::from(k as f32 * 0.03 - 3.0), 0.0]);
+    let states: Vec<JointState> = (0..200).map(state).collect();
     let columns = text.run_at_many(&states);
     let mut twice = 0;
     for (k, state) in states.iter().enumerate() {
@@ -93,11 +88,6 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
         twice += usize::from(s1.mul_add(0.1, c1) != s1 * 0.1 + c1);
     }
     assert!(twice > 5, "{twice}");
-}
-
-fn variants(generated: &GeneratedCode) -> &[Variant] {
-    let admitted = generated.functions[0].admitted.as_ref();
-    &admitted.unwrap().variants
 }
 
 #[test]
@@ -119,9 +109,7 @@ fn bounds_are_of_one_rounding() {
         assert!(smaller > 0);
         Certified::variant(&support::source("puma560", scene), variant).is_shown(1, "fused");
     }
-    let kept =
-        |case: &Case, code: &GeneratedCode| keep(case.robot(), &case.request, code, None).plan;
-    assert_eq!(kept(&on, &fma).write(), kept(&off, &plain).write());
+    assert_eq!(on.plan(&fma).write(), off.plan(&plain).write());
 }
 
 #[test]
@@ -129,7 +117,7 @@ fn claims_name_the_library() {
     let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\
                  tolerance = { value = 1e-9, relative_to = \"range\" }\nscalar = \"f64\"\n";
     let generated = Case::new("planar2r", scene, "scene: slow; sincos: together").generated();
-    assert!(generated.text().contains("dalembert_sines::sincos(&["));
+    says(&generated.text(), "dalembert_sines::sincos(&[");
     let variant = &variants(&generated)[0];
     assert_eq!(variant.library, Library::Together);
     Certified::variant(&support::source("planar2r", scene), variant).is_shown(1, "together");

@@ -33,6 +33,18 @@ impl Findings {
         let mut points = Points::new(&setting, &[&self.source, &format!("{program:?}")]);
         check(statement, &mut points)
     }
+
+    #[track_caller]
+    fn are_shown(&self) {
+        let outcome = self.check(&self.program);
+        assert_eq!(outcome, Ok(()), "{}", self.function.name);
+    }
+
+    #[track_caller]
+    fn refuse(&self, program: &Straight<Exact>, what: &str) {
+        let outcome = self.check(program);
+        assert!(outcome.is_err(), "{}: {what}", self.function.name);
+    }
 }
 
 fn shown(file: &Certified) -> Vec<Findings> {
@@ -51,12 +63,8 @@ fn shown(file: &Certified) -> Vec<Findings> {
 
 fn of_trees(robots: &[&str], functions: &str) -> Vec<Findings> {
     let asked = format!("outputs: {functions}; scalar: f64; prefer: operations");
-    let files = robots
-        .iter()
-        .map(|name| Certified::of(&source(name, ""), None, &asked));
-    files
-        .flat_map(|mut files| shown(&files.remove(0)))
-        .collect()
+    let findings = |name: &&str| shown(&Certified::of(&source(name, ""), None, &asked)[0]);
+    robots.iter().flat_map(findings).collect()
 }
 
 daily_and_campaign! {
@@ -83,24 +91,14 @@ fn another_order_of_coordinates_is_refused() {
         }
     };
     for findings in of_trees(&["two_legs"], "inverse_dynamics, gravity, forward_dynamics") {
-        assert_eq!(
-            findings.check(&findings.program),
-            Ok(()),
-            "{}",
-            findings.function.name
-        );
+        findings.are_shown();
         for (from, to, count) in [(0, 3, 3), (6, 8, 2)] {
             let other = places(from, to, count);
             let mut results = findings.program.clone();
             let outputs = findings.program.outputs.len();
-            results.outputs = (0..outputs)
-                .map(|k| findings.program.outputs[other(k)].clone())
-                .collect();
-            assert!(
-                findings.check(&results).is_err(),
-                "{} {from}",
-                findings.function.name
-            );
+            let moved = |k: usize| findings.program.outputs[other(k)].clone();
+            results.outputs = (0..outputs).map(moved).collect();
+            findings.refuse(&results, &format!("results {from}"));
             let mut read = findings.program.clone();
             let mut is_read = false;
             for operand in read.steps.iter_mut().flat_map(|step| &mut step.1) {
@@ -108,11 +106,9 @@ fn another_order_of_coordinates_is_refused() {
                     (*index, is_read) = (other(*index), true);
                 }
             }
-            assert!(
-                !is_read || findings.check(&read).is_err(),
-                "{} {from}",
-                findings.function.name
-            );
+            if is_read {
+                findings.refuse(&read, &format!("entries {from}"));
+            }
         }
     }
 }
@@ -121,14 +117,7 @@ const TORQUES: &str = "inverse_dynamics, inertia";
 const DYNAMICS: &str = "inverse_dynamics, gravity, coriolis, inertia, forward_dynamics";
 
 fn every_changed_sign_of_a_tree_is_refused(shown: &[Findings], tries: usize, least: usize) {
-    for findings in shown {
-        assert_eq!(
-            findings.check(&findings.program),
-            Ok(()),
-            "{}",
-            findings.function.name
-        );
-    }
+    shown.iter().for_each(Findings::are_shown);
     let count = refused_mutants(shown, tries, 0..1, |_| true);
     assert!(count >= least, "{count}");
 }
@@ -147,11 +136,7 @@ fn refused_mutants(
             for kind in kinds.clone() {
                 if let Some(mutant) = mutant(&findings.program, index, kind) {
                     count += 1;
-                    let name = &findings.function.name;
-                    assert!(
-                        findings.check(&mutant).is_err(),
-                        "{name}: step {index} {kind}"
-                    );
+                    findings.refuse(&mutant, &format!("step {index} {kind}"));
                 }
             }
         }

@@ -1,9 +1,6 @@
-//! Limbs as lanes of loops: the same results, bit for bit, as the operations of each limb by itself;
-//! and no limb in another's place.
+//! Limbs as lanes of loops: the bits of each limb's operations, and no limb in another's place.
 
-use std::fs;
-
-use dalembert_codegen::workspace::{Names, keep};
+use dalembert_codegen::workspace::Names;
 use dalembert_codegen::{GeneratedCode, Language, LimbLayout, Plan, ScalarType, generate};
 
 use serde_json::{Value, json};
@@ -11,21 +8,21 @@ use serde_json::{Value, json};
 use crate::c99::{compiles_without_a_warning, with_main};
 use crate::certified::Certified;
 use crate::support::compiled::{run, same_bits, there};
-use crate::support::{Case, changes, path, source};
+use crate::support::{Case, says, text};
+
+/// The name, the place and the mass of the hip of each limb.
+const HIPS: [[&str; 4]; 4] = [
+    ["fl", "0.19", "0.047", "0.76"],
+    ["fr", "0.19", "-0.047", "0.77"],
+    ["rl", "-0.2", "0.047", "0.78"],
+    ["rr", "-0.2", "-0.047", "0.79"],
+];
 
 /// Limbs on a base that floats or not: no two of them have all numbers alike.
 fn robot(trunk: &str, limbs: usize) -> String {
     let mut text = format!("name = \"limbs\"\ngravity = [0, 0, -9.81]\n{trunk}");
     let carrier = if trunk.is_empty() { "base" } else { "trunk" };
-    for (limb, x, y, m) in [
-        ("fl", "0.19", "0.047", "0.76"),
-        ("fr", "0.19", "-0.047", "0.77"),
-        ("rl", "-0.2", "0.047", "0.78"),
-        ("rr", "-0.2", "-0.047", "0.79"),
-    ]
-    .into_iter()
-    .take(limbs)
-    {
+    for [limb, x, y, m] in &HIPS[..limbs] {
         let side = y.replace("0.047", "0.095");
         text += &format!(
             r#"
@@ -67,81 +64,51 @@ fn quadruped() -> String {
     robot(TRUNK, 4)
 }
 
-const OUTPUTS: [&str; 6] = [
-    "inverse_dynamics",
-    "gravity",
-    "inertia",
-    "forward_dynamics",
-    "inverse_dynamics_derivatives",
-    "inertia_blocks",
-];
+const THREE: &str = "inverse_dynamics, gravity, inertia";
+const OTHERS: &str = "forward_dynamics, inverse_dynamics_derivatives, inertia_blocks";
 
 fn loops(generated: &GeneratedCode) -> Vec<Vec<usize>> {
     let functions = generated.functions.iter();
     let lanes = functions.map(|function| {
-        function
-            .program
-            .loops
-            .iter()
-            .map(|lane_loop| lane_loop.lanes)
-            .collect()
+        let loops = function.program.loops.iter();
+        loops.map(|lane_loop| lane_loop.lanes).collect()
     });
     lanes.collect()
 }
 
-/// Torques, their slopes, D and accelerations have loops, in both languages and scalars, which the
-/// checker shows.
 #[test]
 fn legs_are_lanes() {
     let robot = quadruped();
     for language in ["rust", "c"] {
-        let asked = format!(
-            "outputs: {}; scalar: f64; language: {language}",
-            OUTPUTS.join(", ")
-        );
-        let file = Certified::of(&robot, None, &asked).remove(0);
+        let asked = format!("outputs: {THREE}, {OTHERS}; scalar: f64; language: {language}");
+        let file = Certified::shown(&robot, None, &asked, 6);
         let heads = ["for l in 0..4 {", "for (int l = 0; l < 4; ++l) {"];
         let count = heads.iter().map(|head| file.text.matches(head).count());
-        assert!(count.sum::<usize>() >= OUTPUTS.len(), "{language}");
-        file.is_shown(OUTPUTS.len(), language);
+        assert!(count.sum::<usize>() >= 6, "{language}");
     }
-    let single = format!(
-        "outputs: {}; scalar: f32; language: c",
-        OUTPUTS[..3].join(", ")
-    );
-    Certified::of(&robot, None, &single)
-        .remove(0)
-        .is_shown(3, "f32");
-    let fused = format!(
-        "outputs: {}; scalar: f64; fma: on; language: c",
-        OUTPUTS.join(", ")
-    );
-    let file = Certified::of(&robot, None, &fused).remove(0);
-    assert!(file.text.contains("        const double t") && file.text.contains("= fma(u1[0][l]"));
-    file.is_shown(OUTPUTS.len(), "fma");
+    let single = format!("outputs: {THREE}; scalar: f32; language: c");
+    Certified::shown(&robot, None, &single, 3);
+    let fused = format!("outputs: {THREE}, {OTHERS}; scalar: f64; fma: on; language: c");
+    let file = Certified::shown(&robot, None, &fused, 6);
+    says(&file.text, "        const double t");
+    says(&file.text, "= fma(u1[0][l]");
 }
 
 /// A long loop is cut into blocks, the last of which hands nothing on.
 #[test]
 fn long_lanes_are_cut() {
-    let robot = fs::read_to_string(path("../gallery/robots/go2.toml")).unwrap();
+    let robot = text("../gallery/robots/go2.toml");
     let asked = "outputs: inverse_dynamics_derivatives; scalar: f64; language: rust";
-    let file = Certified::of(&robot, None, asked).remove(0);
+    let file = Certified::shown(&robot, None, asked, 1);
     let (_, lanes) = file.text.split_once("for l in 0..4 {").unwrap();
     let (lanes, _) = lanes.split_once("\n    }\n").unwrap();
-    assert!(lanes.contains("        let (t"), "{lanes}");
-    file.is_shown(1, "long lanes");
+    says(lanes, "        let (t");
 }
 
-/// A limb in another's place is refused: its inputs, its numbers, its results; so is a loop that is not
-/// over all of them.
 #[test]
 fn no_limb_is_in_the_place_of_another() {
     let robot = quadruped();
-    let cases = [
-        (
-            "rust",
-            "
+    let in_rust = "
 [qd[6], qd[8], qd[10], qd[12]] → [qd[8], qd[6], qd[10], qd[12]]
 [qd[6], qd[8], qd[10], qd[12]] → [qd[6], qd[8], qd[10]]
 [0.19, 0.19, -0.2, -0.2] → [0.19, -0.2, 0.19, -0.2]
@@ -158,11 +125,8 @@ w1[6][0] → w1[6][1]
 w1[7][2] → w1[7][3]
 w1[7][2] → w1[7][4]
 w1[7][2] → w1[7][l]
-",
-        ),
-        (
-            "c",
-            "
+";
+    let in_c = "
 {qd[6], qd[8], qd[10], qd[12]} → {qd[8], qd[6], qd[10], qd[12]}
 {qd[6], qd[8], qd[10], qd[12]} → {qd[6], qd[8], qd[10]}
 {0.19, 0.19, -0.2, -0.2} → {-0.2, 0.19, 0.19, -0.2}
@@ -185,30 +149,18 @@ FOUR_V = {a, b, c, d} → FOUR_V = {a, b, d, c}
 #define LIMBS_FORGET(array)↵ → ∅
 const double t7 = → static const double t7 =
 (to)[2] = (c) → (to)[2] = (d)
-",
-        ),
-    ];
-    for (language, table) in cases {
+";
+    for (language, table) in [("rust", in_rust), ("c", in_c)] {
         let asked = format!("outputs: inverse_dynamics; scalar: f64; language: {language}");
-        let file = Certified::of(&robot, None, &asked).remove(0);
-        file.is_shown(1, language);
-        for [from, to] in changes(table) {
-            assert!(file.text.contains(&from), "{from}: {}", file.text);
-            let other = file.with(&file.text.replacen(&from, &to, 1));
-            assert!(other.refusal().is_some(), "{from} → {to}");
-        }
+        Certified::shown(&robot, None, &asked, 1).refuses(table);
     }
 }
 
-/// Compilers make vectors of the loops, and the bits are those of single operations.
 #[test]
 fn vectors_have_the_bits_of_single_operations() {
-    let outputs = OUTPUTS[..3].join(", ");
     for fma in ["off", "on"] {
-        let asked = format!(
-            "outputs: {outputs}; scalar: f64, f32; sincos: together; fma: {fma}; limbs: lanes"
-        );
-        let case = Case::read(&quadruped(), &format!("{asked}; language: c"));
+        let asked = format!("outputs: {THREE}; scalar: f64, f32; sincos: together; fma: {fma}");
+        let case = Case::read(&quadruped(), &format!("{asked}; limbs: lanes; language: c"));
         let flags = ["-O0 -std=c99", "-O2 -std=c99", "-O3 -std=c99 -march=native"];
         same_bits(&format!("limbs_{fma}"), &case, 5, &flags);
     }
@@ -245,10 +197,8 @@ fn compilers_make_vectors_of_lanes() {
                 line.contains("%ymm") && operations.iter().any(|name| line.contains(name))
             };
             let vectors = assembly.lines().filter(is_vector).count();
-            assert!(
-                vectors >= rows,
-                "{compiler}: {output} has {vectors} for {rows} operations"
-            );
+            let what = format!("{compiler}: {output} has {vectors} for {rows} operations");
+            assert!(vectors >= rows, "{what}");
         }
     }
 }
@@ -270,13 +220,11 @@ fn two_arms_are_two_lanes() {
 fn limbs_are_apart_where_that_is_asked_for_or_lanes_are_of_states() {
     let robot = quadruped();
     for asked in ["limbs: apart", "batch: on"] {
-        let case = Case::read(
-            &robot,
-            &format!("outputs: gravity; scalar: f64; {asked}; language: c"),
-        );
-        assert_eq!(loops(&case.generated()), [Vec::<usize>::new()], "{asked}");
+        let asked = format!("outputs: gravity; scalar: f64; {asked}; language: c");
+        let generated = Case::read(&robot, &asked).generated();
+        assert_eq!(loops(&generated), [Vec::<usize>::new()], "{asked}");
     }
-    for (asked, words) in [
+    for (option, words) in [
         ("batch: on", "a batch has vectors over states, not limbs"),
         (
             "language: cuda",
@@ -284,30 +232,16 @@ fn limbs_are_apart_where_that_is_asked_for_or_lanes_are_of_states() {
         ),
         ("formulation: newton_euler", "a formulation alone"),
     ] {
-        let case = Case::read(
-            &robot,
-            &format!("outputs: gravity; scalar: f64; limbs: lanes; {asked}"),
-        );
-        let error = generate(case.robot(), &case.request)
-            .unwrap_err()
-            .to_string();
-        assert!(error.contains(words), "{error}");
+        let asked = format!("outputs: gravity; scalar: f64; limbs: lanes; {option}");
+        says(&Case::read(&robot, &asked).refusal(), words);
     }
-    let serial = source("planar2r", "");
-    let case = Case::read(&serial, "outputs: gravity; scalar: f64; limbs: lanes");
-    let error = generate(case.robot(), &case.request)
-        .unwrap_err()
-        .to_string();
-    assert!(error.contains("no function has lanes"), "{error}");
 }
 
-/// A plan keeps the loops; one whose lanes are not alike is refused.
 #[test]
 fn a_plan_keeps_lanes() {
     let case = Case::read(&quadruped(), "outputs: inverse_dynamics; scalar: f64");
     let generated = case.generated();
-    let plan = keep(case.robot(), &case.request, &generated, None).plan;
-    let text = plan.write();
+    let text = case.plan(&generated).write();
     let mut again = case.request.clone();
     again.plan = Some(Plan::parse(&text).unwrap());
     let replayed = generate(case.robot(), &again).unwrap();
@@ -319,20 +253,18 @@ fn a_plan_keeps_lanes() {
     let [lane_loop] = generated.functions[0].program.loops[..] else {
         panic!("one loop");
     };
+    let (first, rows, lanes) = (lane_loop.first, lane_loop.rows, lane_loop.lanes);
     for other in [
-        [lane_loop.first + 1, lane_loop.rows, lane_loop.lanes],
-        [lane_loop.first, lane_loop.rows, lane_loop.lanes + 1],
-        [lane_loop.first, lane_loop.rows / 2, 2 * lane_loop.lanes],
-        [lane_loop.first, 0, lane_loop.lanes],
+        [first + 1, rows, lanes],
+        [first, rows, lanes + 1],
+        [first, rows / 2, 2 * lanes],
+        [first, 0, lanes],
     ] {
         let mut document: Value = serde_json::from_str(&text).unwrap();
         let loops = &mut document["functions"][0]["planned"]["loops"];
-        assert_eq!(
-            *loops,
-            json!([[lane_loop.first, lane_loop.rows, lane_loop.lanes]])
-        );
+        assert_eq!(*loops, json!([[first, rows, lanes]]));
         *loops = json!([other]);
         let error = Plan::parse(&document.to_string()).unwrap_err().to_string();
-        assert!(error.contains("lanes have different operations"), "{error}");
+        says(&error, "lanes have different operations");
     }
 }

@@ -8,7 +8,7 @@ use dalembert_codegen::workspace::{input_hash, keep};
 use dalembert_codegen::{Function, Plan};
 
 use crate::support::compiled::{folder, run};
-use crate::support::{self, Case, every_output, rows};
+use crate::support::{self, Case, every_output, rows, says};
 
 /// A robot file, the lines of a scene, what is asked, and words of the text in their order; without
 /// comment marks and with one space where there are more. Behind `¬` stands what must not follow.
@@ -65,8 +65,7 @@ fn texts_say_what_was_asked() {
         plan = Some(keep(case.robot(), &case.request, &generated, previous_plan).plan);
         let text = flat(&generated.text());
         for function in &generated.functions {
-            let call = format!("{}(", function.function);
-            assert!(text.contains(&call), "{asked}: {call}");
+            says(&text, &format!("{}(", function.function));
         }
         let mut rest = text.as_str();
         for word in words.split(" … ") {
@@ -74,10 +73,10 @@ fn texts_say_what_was_asked() {
                 assert!(!rest.contains(word), "{asked}: {word}");
                 continue;
             }
-            let place = rest
-                .find(word)
-                .unwrap_or_else(|| panic!("{asked}: {word} is not behind\n{rest}"));
-            rest = &rest[place + word.len()..];
+            let Some((_, behind)) = rest.split_once(word) else {
+                panic!("{asked}: {word} is not behind\n{rest}")
+            };
+            rest = behind;
         }
     }
 }
@@ -137,14 +136,12 @@ fn functions_are_straight_lines() {
         let asked = format!("{}; scalar: f64; {options}", every_output());
         let text = Case::planar2r(&asked).generated().text();
         let (functions, calls_nothing) = (functions(&text), options.contains("polynomial"));
-        let is_output =
-            |(head, _): &&(&str, _)| !head.contains("_sines_") && !head.contains("in_box");
-        let outputs: Vec<_> = functions.iter().filter(is_output).collect();
-        assert!(
-            outputs.len() >= every_output().split(',').count(),
-            "{}",
-            outputs.len()
-        );
+        let has_sines = functions.iter().any(|(head, _)| head.contains("_sines_"));
+        assert_eq!(has_sines, options.contains("together"));
+        let is_output = |head: &str| !head.contains("_sines_") && !head.contains("in_box");
+        let outputs = functions.iter().filter(|(head, _)| is_output(head));
+        let count = outputs.clone().count();
+        assert!(count >= every_output().split(',').count(), "{count}");
         for (head, body) in outputs {
             for line in body {
                 let mut words = line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
@@ -153,10 +150,6 @@ fn functions_are_straight_lines() {
                 assert!(!calls(line) || !calls_nothing, "{head}: {line}");
             }
         }
-        let loops = functions
-            .iter()
-            .filter(|(head, _)| head.contains("_sines_"));
-        assert_eq!(loops.count() > 0, options.contains("together"));
     }
     assert!(calls("let t1 = f(x) + (y);") && !calls("let t1 = x + (y);"));
 }
@@ -191,10 +184,8 @@ fn nobody_has_anything_to_say() {
         ("rustdoc", "-Dwarnings --document-private-items"),
         ("./main", ""),
     ] {
-        let flags = flags
-            .split_whitespace()
-            .chain(["--edition", "2024", "main.rs"]);
-        let said = run(program, flags, &folder);
+        let ends = ["--edition", "2024", "main.rs"];
+        let said = run(program, flags.split_whitespace().chain(ends), &folder);
         assert!(said.is_empty(), "{program}:\n{said}");
     }
 }
@@ -204,33 +195,23 @@ fn names_are_short_and_distinct() {
     for options in ["sincos: together", "sincos: libm; name: stanford"] {
         let asked = format!("{}; batch: on; {options}; language: c", every_output());
         let text = Case::planar2r(&asked).generated().text();
-        let heads = text
-            .lines()
-            .filter_map(|line| line.strip_prefix("static inline "));
-        let names: Vec<&str> = heads
-            .map(|head| {
-                let (head, _) = head.split_once('(').unwrap();
-                head.rsplit(' ').next().unwrap()
-            })
-            .collect();
-        assert!(
-            names.len() >= 4 * every_output().split(',').count(),
-            "{names:?}"
-        );
+        let declared = text.lines().filter_map(|line| {
+            let head = line.strip_prefix("static inline ")?;
+            head.split_once('(').unwrap().0.rsplit(' ').next()
+        });
+        let names: Vec<&str> = declared.collect();
+        let count = every_output().split(',').count();
+        assert!(names.len() >= 4 * count, "{names:?}");
         assert!(names.iter().all(|name| name.len() <= 31), "{names:?}");
-        let distinct: BTreeSet<&&str> = names.iter().collect();
-        assert_eq!(distinct.len(), names.len());
+        assert_eq!(BTreeSet::from_iter(&names).len(), names.len());
     }
 }
 
 #[test]
 fn long_names_are_cut() {
     let mut heads = BTreeSet::new();
-    let few: Vec<&str> = Function::by_default()
-        .iter()
-        .map(|function| function.name())
-        .collect();
-    let (few, many) = (few.join(", "), every_output());
+    let names = Function::by_default().into_iter().map(Function::name);
+    let (few, many) = (names.collect::<Vec<_>>().join(", "), every_output());
     for (name, asked) in [
         ("a_robot_of_nineteen", &few),
         ("gen3_7dof_novision_for_urdf_arm_v12", &few),
@@ -246,10 +227,10 @@ fn long_names_are_cut() {
             let generated = case.generated();
             let said = generated.warnings.join("\n");
             let short = said.split('`').nth(1).unwrap();
-            assert!(said.contains(&format!("with `{name}`")), "{said}");
+            says(&said, &format!("with `{name}`"));
             assert!(short.starts_with(&name[..3]));
             for words in [format!(" {short}_gravity("), format!("robot `{name}`")] {
-                assert!(generated.text().contains(&words), "{words}");
+                says(&generated.text(), &words);
             }
             heads.insert(short.to_owned());
             case.request.module = Some(short.to_owned());

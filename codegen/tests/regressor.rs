@@ -122,14 +122,9 @@ fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     let values: Vec<f64> = states.iter().flat_map(run).collect();
     let length = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>().sqrt();
     let scaled = |column: usize| {
-        let entries: Vec<f64> = values
-            .iter()
-            .skip(column)
-            .step_by(columns)
-            .copied()
-            .collect();
-        let length = length(&entries).max(1e-3);
-        entries.iter().map(|x| x / length).collect()
+        let entries = values.iter().copied().skip(column).step_by(columns);
+        let length = length(&entries.clone().collect::<Vec<_>>()).max(1e-3);
+        entries.map(|x| x / length).collect()
     };
     let mut matrix: Vec<Vec<f64>> = (0..columns).map(scaled).collect();
     let mut rank = 0;

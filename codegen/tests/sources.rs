@@ -23,10 +23,9 @@ const FUNCTIONS: [Function; 5] = [
 fn all() -> Vec<Robot> {
     let drawn = robots(20, 0x5eed).map(|(_, robot, _)| robot);
     let folders = ["../generated/robots", "../gallery/robots"].into_iter();
-    let files = folders
-        .flat_map(|folder| fs::read_dir(path(folder)).unwrap())
-        .map(|file| file.unwrap().path())
-        .filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    let entries = folders.flat_map(|folder| fs::read_dir(path(folder)).unwrap());
+    let paths = entries.map(|file| file.unwrap().path());
+    let files = paths.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
     let read = files.map(|file| read_robot(&fs::read_to_string(file).unwrap()));
     drawn.chain(read).collect()
 }
@@ -59,9 +58,8 @@ fn operations(cases: &[Vec<Dag>], leave_out: LeaveOut) -> usize {
 #[ignore = "a quarter of an hour: by hand"]
 fn by_hand_every_source_earns() {
     let robots = all();
-    let cases = robots
-        .iter()
-        .flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
+    let with_functions = |robot| FUNCTIONS.map(|function| (robot, function));
+    let cases = robots.iter().flat_map(with_functions);
     let seeds = |(robot, function): (&Robot, Function)| -> Vec<Dag> {
         let request = Request::new(&[function]);
         let setup = request.prepare(robot).unwrap();
@@ -85,12 +83,8 @@ fn by_hand_every_source_earns() {
     for (name, leave_out) in SOURCES {
         earns(name, operations(&cases, leave_out));
     }
-    let alone: Vec<Vec<Dag>> = cases
-        .iter()
-        .map(|seeds| {
-            let price = |dag: &&Dag| cost(&dag.rebuild(Folding::Semantic));
-            vec![seeds.iter().min_by_key(price).unwrap().clone()]
-        })
-        .collect();
+    let price = |dag: &&Dag| cost(&dag.rebuild(Folding::Semantic));
+    let cheapest = |seeds: &Vec<Dag>| vec![seeds.iter().min_by_key(price).unwrap().clone()];
+    let alone: Vec<Vec<Dag>> = cases.iter().map(cheapest).collect();
     earns("other forms and axes", operations(&alone, |_| {}));
 }

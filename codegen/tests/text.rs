@@ -84,10 +84,7 @@ fn all_angles_together_are_read() {
     let q = [0.3f64, 1.1];
     let ([s1, _], [c1, c2]) = dalembert_sines::sincos(&q);
     let t2 = c1 * 0.5 - s1;
-    let state = JointState {
-        q: q.to_vec(),
-        ..JointState::default()
-    };
+    let state = JointState::at_rest(q.to_vec());
     assert_eq!(together.run_at(&state), [c2 * t2, -t2]);
     assert!(together.run_at(&JointState::default()).is_empty());
 }
@@ -197,30 +194,24 @@ fn neighbours(line: &str, scalar: ScalarType) -> Vec<String> {
     lines.collect()
 }
 
-fn unfused(line: &str) -> Vec<String> {
-    let Some((name, value)) = line.split_once(" = ") else {
-        return Vec::new();
-    };
-    let Some((left, rest)) = value.split_once(".mul_add(") else {
-        return Vec::new();
-    };
+fn unfused(line: &str) -> Option<[String; 5]> {
+    let (name, value) = line.split_once(" = ")?;
+    let (left, rest) = value.split_once(".mul_add(")?;
     let (right, addend) = rest.strip_suffix(");").unwrap().split_once(", ").unwrap();
     let bare = left.trim_start_matches("(-").trim_end_matches(')');
     let minus = match left == bare {
         true => format!("(-{left})"),
         false => bare.to_owned(),
     };
-    let negated = addend
-        .strip_prefix('-')
-        .map(str::to_owned)
-        .unwrap_or_else(|| format!("-{addend}"));
-    vec![
+    let positive = addend.strip_prefix('-').map(str::to_owned);
+    let negated = positive.unwrap_or_else(|| format!("-{addend}"));
+    Some([
         format!("{name} = {left}.mul_add({addend}, {right});"),
         format!("{name} = {bare} * {right};"),
         format!("{name} = {left}.mul_add({right}, {negated});"),
         format!("{name} = {minus}.mul_add({right}, {addend});"),
         format!("{name} = {left}.mul_add({right}, {addend}) + 0.0;"),
-    ]
+    ])
 }
 
 fn passes(case: &Case, generated: &GeneratedCode, scalar: ScalarType, text: &str) -> bool {
@@ -277,7 +268,7 @@ fn every_change_of_a_line_is_found() {
                     *tried += &format!("{line}\n");
                     others.extend(changes.iter().map(|[from, to]| line.replacen(from, to, 1)));
                     others.extend(neighbours(line, *scalar));
-                    others.extend(unfused(line));
+                    others.extend(unfused(line).into_iter().flatten());
                 }
                 others
             };

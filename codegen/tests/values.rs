@@ -12,7 +12,7 @@ use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::outputs::Axis;
 use dalembert_model::scene::write;
 
-use crate::support::{self, BOUND, Case, all_but_one_in, is_close, largest, one_in, rows};
+use crate::support::{self, BOUND, Case, all_but_one_in, is_close, largest, one_in, rows, says};
 
 const NAMES: &str = "
 FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, operational_inertia@camera:x_y_rz, operational_bias@elbow:linear, inverse_dynamics_with_wrench@camera:local, forward_dynamics_with_wrench@elbow, contact_wrench@camera:linear, momentum_observer, task=operational_inertia@camera:linear+consistent_inverse@camera:linear+null_space_projector@camera:linear
@@ -23,8 +23,7 @@ LINKED := inverse_dynamics, manipulator_equation, forward_dynamics
 FIRST := inverse_dynamics, inertia, coriolis, gravity, manipulator_equation, dynamic_coefficients
 ";
 
-/// Robot files, outputs with options, the lines of a scene, and the number of states. The range of
-/// polynomial sines of D with a payload was once looked for in a box without one.
+/// Robot files, outputs with options, the lines of a scene, and the number of states.
 const ROWS: [&str; 2] = [
     r#"
 frames/planar3r | FRAMES | | 60
@@ -90,13 +89,7 @@ fn check(table: &str) {
     }
 }
 
-fn six_robots(table: &str) {
-    check(table);
-}
-
-fn scenes_arguments_and_frames(table: &str) {
-    check(table);
-}
+use self::{check as scenes_arguments_and_frames, check as six_robots};
 
 /// Nothing here goes through what the generator makes of the scene. A joint that is locked or zero
 /// must not be read: it would show.
@@ -185,12 +178,8 @@ fn friction() {
     for function in case.rounds_well(200, "friction").functions {
         let mut rubbed = rubbed.split(", ");
         let is_rubbed = rubbed.any(|word| word == function.function.name());
-        assert_eq!(
-            function.counts().sqrt > 0,
-            is_rubbed,
-            "{}",
-            function.function
-        );
+        let has_roots = function.counts().sqrt > 0;
+        assert_eq!(has_roots, is_rubbed, "{}", function.function);
     }
 }
 
@@ -201,10 +190,8 @@ const FRICTION: [(f64, f64); 3] = [(2.5, 0.01), (14.0, 1.0 / 300.0), (0.0, 1.0)]
 fn friction_is_that_of_the_textbook() {
     let asked = "outputs: inverse_dynamics, passivity, forward_dynamics; scalar: f64";
     let source = support::source("coulomb", "");
-    let smooth: Vec<&str> = source
-        .lines()
-        .filter(|line| !line.starts_with("coulomb"))
-        .collect();
+    let mut smooth: Vec<&str> = source.lines().collect();
+    smooth.retain(|line| !line.starts_with("coulomb"));
     let [case, smooth] = [source.clone(), smooth.join("\n")].map(|file| Case::read(&file, asked));
     let [with, plain] = [&case, &smooth].map(|case| case.generated().emitted);
     for state in case.runtime(100, 0x636f_756c).1 {
@@ -255,21 +242,21 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
     let truth = Reference::new(&setup);
     // Of base parameters there are none: its axes are turned against each other anyhow.
-    let is_own = |function: &Function| function.columns() == RegressorColumns::None;
-    let functions = Function::of(&robot).into_iter().filter(is_own).enumerate();
+    let has_no_columns = |function: &Function| function.columns() == RegressorColumns::None;
+    let functions = Function::of(&robot)
+        .into_iter()
+        .filter(has_no_columns)
+        .enumerate();
     for (_, function) in functions.filter(|(place, _)| is_tried(*place)) {
         let generated = Case::in_scene("wafer", "", function.name()).generated();
         assert_eq!(generated.functions[0].program.joints, 4);
         for emitted in generated.emitted {
             let compared = setup.states(30, 3).into_iter().map(|state| {
                 let state = state.in_scalar(emitted.scalar);
-                let known: Vec<f64> = truth
-                    .run(function, &state)
-                    .iter()
-                    .map(TrueValue::to_f64)
-                    .collect();
+                let known = truth.run(function, &state);
                 let granted = runtime.granted(function, &state);
-                (emitted.run(&state), known, granted)
+                let expected = known.iter().map(TrueValue::to_f64).collect();
+                (emitted.run(&state), expected, granted)
             });
             support::hold(&emitted, &compared.collect::<Vec<_>>(), "");
         }
@@ -293,29 +280,26 @@ fn a_parallelogram_costs_less_than_free_joints(outputs: &str) {
             true => tied.generated(),
             false => tied.rounds_well(30, function),
         };
-        let [one, tied_count] =
+        let [free, tied] =
             [free.generated(), tied_code].map(|code| code.functions[0].counts().operations());
-        assert!(
-            3 * tied_count < 2 * one,
-            "{function}: {tied_count} against {one}"
-        );
+        assert!(3 * tied < 2 * free, "{function}: {tied} against {free}");
     }
 }
 
 #[test]
 fn the_manipulator_equation_is_a_bundle() {
-    let [equation, made] =
-        ["manipulator_equation", "equation=inertia+coriolis+gravity"].map(|asked| {
-            let generated = Case::in_scene("planar3r", "", asked).generated();
-            generated.functions.into_iter().next().unwrap().program
-        });
-    assert_eq!(equation.dag, made.dag);
+    let outputs = ["manipulator_equation", "equation=inertia+coriolis+gravity"];
+    let [equation, made] = outputs.map(|asked| {
+        let mut generated = Case::in_scene("planar3r", "", asked).generated();
+        generated.functions.remove(0).program.dag
+    });
+    assert_eq!(equation, made);
     // Read, a bundle has no blanks; nor in the text of its scene, of which its hash is made.
     let lines = "outputs = [\"reach = gravity + jacobian\"]";
     let case = Case::in_scene("planar3r", lines, "servo = gravity + inertia");
     assert_eq!(case.request.functions[0].text(), "servo=gravity+inertia");
     let written = write(case.request.scene.as_ref().unwrap());
-    assert!(written.contains("\"reach=gravity+jacobian\""), "{written}");
+    says(&written, "\"reach=gravity+jacobian\"");
     // π is the module's, whoever needs it.
     let both = "outputs: adapt=regressor+momentum, regressor";
     let text = Case::new("planar2r", "", both).generated().text();
@@ -408,10 +392,8 @@ fn states_keep_to_the_limits() {
 
 #[test]
 fn keys_of_states_are_told_apart() {
-    let quantities = Quantity::ALL
-        .iter()
-        .filter_map(|quantity| quantity.facts().given);
-    let arguments = Argument::ALL.iter().filter_map(|argument| argument.given());
-    let mut keys = BTreeSet::new();
-    assert!(quantities.chain(arguments).all(|key| keys.insert(key)));
+    let quantities = Quantity::ALL.iter().map(|quantity| quantity.facts().given);
+    let arguments = Argument::ALL.iter().map(|argument| argument.given());
+    let keys: Vec<&str> = quantities.chain(arguments).flatten().collect();
+    assert_eq!(BTreeSet::from_iter(&keys).len(), keys.len());
 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use dalembert_codegen::workspace::{Observer, Part, Progress, price};
 use dalembert_codegen::{Effort, Function, GeneratedCode, Watch};
 
-use crate::support::{Case, daily_and_campaign};
+use crate::support::{Case, daily_and_campaign, variants};
 
 type Until = Option<(Part, usize)>;
 
@@ -46,11 +46,9 @@ fn watching_changes_nothing() {
     let (generated, reports) = watched(two(), Effort::Quick, None);
     assert!(generated.text() == two().searched().text());
     for function in [Function::InverseDynamics, Function::Gravity] {
-        let mut parts: Vec<Part> = reports
-            .iter()
-            .filter(|progress| progress.function == function)
-            .map(|progress| progress.part)
-            .collect();
+        let is_its = |progress: &&Progress| progress.function == function;
+        let steps = reports.iter().filter(is_its);
+        let mut parts: Vec<Part> = steps.map(|progress| progress.part).collect();
         parts.dedup();
         assert!(parts.starts_with(&[Part::Formulations, Part::Search]));
         assert_eq!(parts.last(), Some(&Part::Proof));
@@ -73,11 +71,8 @@ fn an_early_end_keeps_the_best_so_far() {
             assert!(function.counts().operations() <= began.counts.operations());
         }
         // The function whose turn had not come got the quick search, unwatched.
-        assert!(
-            reports
-                .iter()
-                .all(|p| p.function == Function::InverseDynamics)
-        );
+        let mut functions = reports.iter().map(|progress| progress.function);
+        assert!(functions.all(|function| function == Function::InverseDynamics));
     }
 }
 
@@ -90,19 +85,13 @@ fn a_tolerance_is_watched(late: Until) {
     let hold = "outputs = [\"gravity\"]; tolerance = { value = 0.3, relative_to = \"range\" }";
     let case = || Case::in_scene("planar2r", hold, "gravity; scalar: f64");
     let rounds = |reports: &[Progress]| {
-        // A better exact program begins anew, and restarts run side by side: of none a round
-        // is left out.
-        let rounds: Vec<_> = reports
-            .iter()
-            .filter(|p| p.part == Part::Omissions)
-            .map(|p| p.round)
-            .collect();
+        // A better program begins anew, and restarts run side by side: none leaves a round out.
+        let omissions = reports.iter().filter(|p| p.part == Part::Omissions);
+        let rounds: Vec<_> = omissions.map(|p| p.round).collect();
         let mut counts = vec![0; rounds.len() + 1];
         for &round in &rounds {
-            assert!(
-                round == 0 || counts[round] < counts[round - 1],
-                "{rounds:?}"
-            );
+            let is_next = round == 0 || counts[round] < counts[round - 1];
+            assert!(is_next, "{rounds:?}");
             counts[round] += 1;
         }
         rounds.len()
@@ -113,8 +102,7 @@ fn a_tolerance_is_watched(late: Until) {
     assert!(bounds >= 1, "of the variant");
     let (ended, early_reports) = watched(case(), Effort::Thorough, Some((Part::Omissions, 1)));
     assert!(rounds(&early_reports) < round_count.min(8));
-    let admitted = ended.functions[0].admitted.as_ref().unwrap();
-    let bounds = &admitted.variants[0].bounds;
+    let bounds = &variants(&ended)[0].bounds;
     assert!(!bounds.is_empty() && bounds.iter().all(|bound| bound.total() <= 0.3));
     let operations = |code: &GeneratedCode| code.functions[0].counts().operations();
     assert!(late.is_some() || operations(&ended) >= operations(&generated));

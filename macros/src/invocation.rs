@@ -67,21 +67,10 @@ impl Invocation {
             head = Some(self::head(input, &mut late)?);
             input.parse::<TokenStream>()
         };
-        let rest = parsed
-            .parse2(input)
-            .map_err(|error| errors.0.push(error))
-            .ok()?;
+        let outcome = parsed.parse2(input);
+        let rest = outcome.map_err(|error| errors.0.push(error)).ok()?;
         errors.0.extend(late);
-        let (attributes, visibility, name, robot) = head?;
-        let mut invocation = Invocation {
-            attributes,
-            visibility,
-            name,
-            robot,
-            clauses: Vec::new(),
-            asked: Asked::default(),
-            facade: syn::parse_quote!(::dalembert),
-        };
+        let mut invocation = head?;
         invocation.read_clauses(&trees(rest), errors);
         Some(invocation)
     }
@@ -129,12 +118,11 @@ impl Invocation {
                 rest = after;
                 continue;
             }
-            let length = length(rest);
-            let (clause, next) = rest.split_at(length);
+            let (clause, next) = rest.split_at(length(rest));
             rest = next;
             match clause {
-                [first, ..] if is_punct(first, '#') || is_word(first, "mod", "pub") => {
-                    let module = clause.iter().find(|tree| is_word(tree, "mod", "pub"));
+                [first, ..] if is_punct(first, '#') || begins_module(first) => {
+                    let module = clause.iter().find(|tree| begins_module(tree));
                     let help = "write a second `dynamics!` for the next";
                     let at = module.unwrap_or(first);
                     errors.say(at, "an invocation takes only one robot", help);
@@ -225,10 +213,8 @@ impl Invocation {
 
 const CLAUSE: &str = "a clause is `name: value;`, such as `outputs: inverse_dynamics, gravity;`";
 
-type Head = (Vec<Attribute>, Visibility, Ident, LitStr);
-
-/// Reads `/// … pub mod name = "file";`.
-fn head(input: ParseStream<'_>, late: &mut Vec<Error>) -> syn::Result<Head> {
+/// Reads `/// … pub mod name = "file";`, an invocation without clauses.
+fn head(input: ParseStream<'_>, late: &mut Vec<Error>) -> syn::Result<Invocation> {
     let attributes = input.call(Attribute::parse_outer)?;
     let visibility = input.parse()?;
     let wanted = |text: &str, help: &str| input.error(with_help(text, help));
@@ -249,7 +235,15 @@ fn head(input: ParseStream<'_>, late: &mut Vec<Error>) -> syn::Result<Head> {
     if input.parse::<Option<Token![;]>>()?.is_none() && !input.is_empty() {
         late.push(wanted("expected `;` after the path", ""));
     }
-    Ok((attributes, visibility, name, robot))
+    Ok(Invocation {
+        attributes,
+        visibility,
+        name,
+        robot,
+        clauses: Vec::new(),
+        asked: Asked::default(),
+        facade: syn::parse_quote!(::dalembert),
+    })
 }
 
 /// Counts up to a semicolon, or to the next key where the semicolon was forgotten.
@@ -276,8 +270,8 @@ fn length(trees: &[TokenTree]) -> usize {
     trees.len()
 }
 
-fn is_word(tree: &TokenTree, one: &str, other: &str) -> bool {
-    matches!(tree, TokenTree::Ident(word) if word == one || word == other)
+fn begins_module(tree: &TokenTree) -> bool {
+    matches!(tree, TokenTree::Ident(word) if word == "mod" || word == "pub")
 }
 
 fn is_punct(tree: &TokenTree, c: char) -> bool {

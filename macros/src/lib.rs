@@ -1,6 +1,5 @@
-//! `dynamics!`: takes the generated file beside a robot file into a module, if it is the robot's
-//! and holds what is asked. With the feature `search` the module is generated where there is no
-//! such file.
+//! `dynamics!`: takes the generated file beside a robot file into a module, if it is of this robot
+//! and holds what is asked. With the feature `search` the module is generated where there is none.
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 

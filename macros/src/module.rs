@@ -28,7 +28,7 @@ pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
 
 type Wanted = (Ident, Asked);
 
-type Refused = (PathBuf, Stale);
+type Refusal = (PathBuf, Stale);
 
 fn modules(
     invocation: &Invocation,
@@ -70,11 +70,10 @@ fn modules(
 
 fn wanted(invocation: &Invocation) -> Vec<Wanted> {
     let name = &invocation.name;
-    let module_name = |suffix: &str| named(&format!("{name}{suffix}"), name.span());
+    let module =
+        |(suffix, asked): (&str, Asked)| (named(&format!("{name}{suffix}"), name.span()), asked);
     let files = invocation.asked.by_scalar().into_iter();
-    files
-        .map(|(suffix, asked)| (module_name(suffix), asked))
-        .collect()
+    files.map(module).collect()
 }
 
 fn robot(
@@ -150,12 +149,8 @@ fn module(
             return TokenStream::new();
         }
     };
-    let Invocation {
-        attributes,
-        visibility,
-        facade,
-        ..
-    } = invocation;
+    let (attributes, visibility) = (&invocation.attributes, &invocation.visibility);
+    let facade = &invocation.facade;
     let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
     let gap = attributes.iter().any(is_doc).then(|| quote!(#![doc = ""]));
     // What it calls is found in the facade, wherever that is.
@@ -170,9 +165,7 @@ fn module(
         #visibility mod #name {
             #gap
             #body
-            #libm
-            #sines
-            #batch
+            #libm #sines #batch
             #further
         }
     }
@@ -198,7 +191,7 @@ fn generated(
     invocation: &Invocation,
     robot: Option<&Path>,
     wanted: &[Wanted],
-    refused: &[Refused],
+    refused: &[Refusal],
     errors: &mut Errors,
 ) -> TokenStream {
     let shown = invocation.robot.value();
@@ -228,7 +221,7 @@ fn generated(
     invocation: &Invocation,
     robot: Option<&Path>,
     _: &[Wanted],
-    refused: &[Refused],
+    refused: &[Refusal],
     errors: &mut Errors,
 ) -> TokenStream {
     let shown = invocation.robot.value();

@@ -39,11 +39,8 @@ pub(crate) fn texts(
                     Place::Option(option, item) => invocation.word(option, item, &problem.message),
                     _ => quote::ToTokens::to_token_stream(&invocation.robot),
                 };
-                errors.say(
-                    at,
-                    &problem.message,
-                    problem.help.as_deref().unwrap_or_default(),
-                );
+                let help = problem.help.as_deref().unwrap_or_default();
+                errors.say(at, &problem.message, help);
             }
             Default::default()
         }

@@ -89,10 +89,8 @@ fn mutated_invocations() {
     let whole = TokenStream::from_str(WHOLE).unwrap();
     // The robot has no such frame: nothing is generated, which would take long.
     assert!(check(whole.clone()));
-    let times: usize = std::env::var("FUZZ_TIMES")
-        .ok()
-        .and_then(|times| times.parse().ok())
-        .unwrap_or(1);
+    let wanted = std::env::var("FUZZ_TIMES").ok();
+    let times: usize = wanted.and_then(|times| times.parse().ok()).unwrap_or(1);
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for _ in 0..3000 * times {
         let rate = 1 + random.below(40);

@@ -1,6 +1,5 @@
-//! The axes in which links are seen change no result: chains with parallel
-//! and antiparallel axes, slides between them, both conventions, seen in every
-//! choice of axes, against Lagrange–Euler in the prime field.
+//! The axes in which links are seen change no result: chains with parallel and antiparallel axes
+//! and slides between them, in every choice of axes, against Lagrange–Euler in the prime field.
 
 use crate::equations_slips::Known;
 use crate::equations_support::random::{self, CONVENTIONS, known};
@@ -52,7 +51,7 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let inertia = textbook.inertia(arm, &at);
     let christoffel = textbook.christoffel(arm, &at);
     let gravity = textbook.gravity(arm, &at);
-    let passivity = textbook.passivity(arm, &at, &qd, [&v, &a]);
+    let passivity = textbook.passivity(arm, &at, [&qd, &v, &a]);
     let first = [
         textbook.torque_by_position(arm, &at, &qd, &qdd),
         textbook.torque_by_velocity(arm, &at, &qd),

@@ -110,7 +110,6 @@ fn rotating_first_is_cheaper_on_every_golden_robot() {
         println!("{robot}: as printed {printed:?}, rotate-first {rotated:?}");
         assert!(rotated.0 <= printed.0 && rotated.1 <= printed.1);
     }
-    // As written: work that no torque depends on, and what is shared, counts
-    // here and goes when the formulas are traced.
+    // Work that no torque depends on, and what is shared, goes when the formulas are traced.
     assert_eq!(golden("puma560", NewtonEulerLink), (290, 207));
 }

@@ -1,7 +1,5 @@
-//! Identities that hold for every arm, checked exactly in the prime field.
-//!
-//! Equality at a random point means equality of the rational functions but for
-//! a chance of about 1e-16 each.
+//! Identities that hold for every arm, checked exactly at random points of the prime field: they
+//! err with a chance of about 1e-16 each.
 
 use std::collections::BTreeSet;
 

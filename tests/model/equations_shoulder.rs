@@ -1,5 +1,4 @@
-//! Forward dynamics of arms whose first axes meet: the torques of what is found are
-//! those that were given, in the prime field.
+//! Forward dynamics of arms whose first axes meet: its torques are those that were given.
 
 use crate::equations_slips::Known;
 use crate::equations_support::random::{self, known};

@@ -1,5 +1,4 @@
-//! Any single slip in a formula is caught by comparing formulations: a wrong
-//! sign anywhere, a dropped term anywhere.
+//! Comparing formulations catches any single slip in a formula: a wrong sign, or a dropped term.
 
 use std::cell::Cell;
 
@@ -82,13 +81,11 @@ fn every_single_slip_is_caught() {
         let exact = Formulation::LagrangeEuler;
         let truth = known(&exact.inverse_dynamics(&arm, &at, &qd, &qdd));
         let (arm, [qd, qdd]) = (arm.map(|x| Known(*x)), [qd, qdd].map(|x| known(&x)));
-        let at: Vec<_> = at
-            .iter()
-            .map(|at| DhVariables {
-                theta: at.theta.map(|x| Known(*x)),
-                d: Known(at.d),
-            })
-            .collect();
+        let variables = at.iter().map(|at| {
+            let (theta, d) = (at.theta.map(|x| Known(*x)), Known(at.d));
+            DhVariables { theta, d }
+        });
+        let at: Vec<_> = variables.collect();
         for formulation in Formulation::ALL {
             let with = |position: u64, slip: Slip| {
                 PLAN.set((position, slip));

@@ -1,12 +1,16 @@
 //! Robots whose base floats: what their files say, and their values.
 
-use crate::support::{data, errors, has, only, reading, refused, replaced, written};
+use crate::equations_support::golden::numbers;
+use crate::support::{
+    agree, are_said_at_their_lines, data, errors, has, only, positions, reading, rows, written,
+};
 use dalembert_model::equations::frames::{Axes, Rows, View};
-use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair, base_position};
+use dalembert_model::equations::{Arm, Formulation, base_position};
 use dalembert_model::number::Rounded;
 use dalembert_model::outputs::{Quantity, Sizes};
+use dalembert_model::read::Reading;
 use dalembert_model::reference::Reference;
-use dalembert_model::robot::{JointKind, Parent};
+use dalembert_model::robot::Parent;
 use dalembert_model::scene;
 use nalgebra::DVector;
 use serde_json::Value;
@@ -44,17 +48,14 @@ fn a_base_is_read_and_written() {
     assert_ne!(fixed.input_hash(), robot.input_hash());
     assert_eq!(fixed.joints.len(), robot.joints.len());
     // One leg is no branch, and placed all the same.
-    let (body, _) = two_legs()
-        .split_once("\n[[joint]]\nname = \"right_hip\"")
-        .map(|(a, b)| (a.to_owned(), b.to_owned()))
-        .unwrap();
-    let hopper = reading(&body).robot;
+    let text = two_legs();
+    let leg = "\n[[joint]]\nname = \"right_hip\"";
+    let (body, _) = text.split_once(leg).unwrap();
+    let hopper = reading(body).robot;
     assert!(!hopper.branches() && hopper.is_tree());
     assert!(hopper.joints.iter().all(|joint| joint.place.is_some()));
 }
 
-/// Pieces of the file, what they are replaced by, and of the error that is said then: its line,
-/// its message and its help.
 #[rustfmt::skip]
 const ROWS: &[(&str, &str, usize, &str, &str)] = &[
     ("kind = \"floating\"\n", "kind = \"floating\"\naxis = [0, 0, 1]\n", 8, "`axis` of a base that floats", "leave it out"),
@@ -76,17 +77,7 @@ const ROWS: &[(&str, &str, usize, &str, &str)] = &[
 
 #[test]
 fn mistakes_are_said_at_their_lines() {
-    for (piece, by, line, message, help) in ROWS {
-        let text = replaced(&two_legs(), piece, by);
-        let errors = errors(&text);
-        let error = only(&errors);
-        has(error, message, help);
-        let error_line = text[..error.excerpt().unwrap().span.start]
-            .matches('\n')
-            .count()
-            + 1;
-        assert_eq!(error_line, *line, "{}", refused(&text));
-    }
+    are_said_at_their_lines(&two_legs(), ROWS);
 }
 
 /// All values are those of Pinocchio, by every formulation.
@@ -100,91 +91,55 @@ fn values_are_those_of_another_library() {
         axes: Axes::Mixed,
         rows: Rows::ALL,
     };
-    let list = |value: &Value| -> Vec<f64> {
-        let numbers = value.as_array().unwrap().iter();
-        numbers.map(|number| number.as_f64().unwrap()).collect()
+    let feet = View {
+        frame: "left_foot,right_foot",
+        ..view
     };
     for state in golden["states"].as_array().unwrap() {
         let [q, qd, qdd, effort, g] =
-            ["q", "qd", "qdd", "effort", "g"].map(|key| list(&state[key]));
+            ["q", "qd", "qdd", "effort", "g"].map(|key| numbers(&state[key]));
         let arm = arm.clone().with_gravity(&[g[0], g[1], g[2]]);
         let frame_arm = arm.seen(&view).unwrap();
-        let held = arm
-            .seen(&View {
-                frame: "left_foot,right_foot",
-                ..view
-            })
-            .unwrap();
-        let joints = robot
-            .joints
-            .iter()
-            .zip(&q)
-            .map(|(joint, q)| match joint.kind {
-                JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-                    sin: q.sin(),
-                    cos: q.cos(),
-                }),
-                JointKind::Prismatic => JointPosition::Prismatic(*q),
-            });
-        let position = base_position().into_iter().chain(joints);
+        let held = arm.seen(&feet).unwrap();
+        let position = base_position().into_iter().chain(positions(&robot, &q));
         let at = arm.at(&position.collect::<Vec<_>>());
         let moves = vec![true; qd.len()];
         for by in Formulation::ALL {
             let inputs = [&qd[..], &effort, &[0.01]];
             let space = by.contact_space(&held, &at, inputs, &moves);
+            let accelerations = by.forward_dynamics(&arm, &at, &qd, &effort, &moves);
+            let by_position = by.torque_by_position(&arm, &at, &qd, &qdd);
+            let centroidal = by.centroidal_momentum_matrix(&arm, &at);
+            let bias = by.centroidal_bias(&arm, &at, &qd);
+            let jacobians = by.contact_jacobians(&held, &at);
             let results = [
                 ("tau", by.inverse_dynamics(&arm, &at, &qd, &qdd)),
                 ("gravity", by.gravity(&arm, &at)),
                 ("bias", by.velocity_terms(&arm, &at, &qd)),
                 ("inertia", by.inertia(&arm, &at).concat()),
-                (
-                    "accelerations",
-                    by.forward_dynamics(&arm, &at, &qd, &effort, &moves),
-                ),
-                (
-                    "dtau_dq",
-                    by.torque_by_position(&arm, &at, &qd, &qdd).concat(),
-                ),
+                ("accelerations", accelerations),
+                ("dtau_dq", by_position.concat()),
                 ("dtau_dqd", by.torque_by_velocity(&arm, &at, &qd).concat()),
                 ("kinetic", vec![by.kinetic_energy(&arm, &at, &qd)]),
                 ("jacobian", by.jacobian(&frame_arm, &at).concat()),
                 ("drift", by.jacobian_rate(&frame_arm, &at, &qd).concat()),
                 ("frame", by.hand(&frame_arm, &at).rows()),
                 ("com", by.centre_of_mass(&arm, &at).to_vec()),
-                (
-                    "centroidal",
-                    by.centroidal_momentum_matrix(&arm, &at).concat(),
-                ),
-                (
-                    "centroidal_bias",
-                    by.centroidal_bias(&arm, &at, &qd).to_vec(),
-                ),
+                ("centroidal", centroidal.concat()),
+                ("centroidal_bias", bias.to_vec()),
                 ("base_free", by.free_base(&arm, &at, [&qd, &qdd])),
-                (
-                    "contact_jacobians",
-                    by.contact_jacobians(&held, &at).concat(),
-                ),
+                ("contact_jacobians", jacobians.concat()),
                 ("contact_bias", by.contact_bias(&held, &at, &qd)),
                 ("qdd_held", space.accelerations()),
                 ("forces", space.forces()),
             ];
-            for (key, found) in results {
-                let expected = list(&state[key]);
-                let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-                assert_eq!(found.len(), expected.len(), "{key}");
-                for (found, expected) in found.iter().zip(&expected) {
-                    let off = (found - expected).abs();
-                    assert!(off <= 1e-14 * size, "{by:?} {key}: {off:e} of {size}");
-                }
-            }
+            agree(&results, state, 1e-14, by);
         }
         // C of Pinocchio has another skew part where links turn; both give h.
         let c = Formulation::LagrangeEuler.coriolis_matrix(&arm, &at, &qd);
-        let [terms, other] = [c.concat(), list(&state["coriolis"])].map(|c| {
-            let rows = c
-                .chunks(qd.len())
-                .map(|row| row.iter().zip(&qd).map(|(c, v)| c * v).sum::<f64>());
-            rows.collect::<Vec<f64>>()
+        let [terms, other] = [c.concat(), numbers(&state["coriolis"])].map(|c| {
+            let product = |row: &[f64]| row.iter().zip(&qd).map(|(c, v)| c * v).sum();
+            c.chunks(qd.len()).map(product).collect::<Vec<f64>>()
         });
         for (term, other) in terms.iter().zip(&other) {
             assert!((term - other).abs() < 1e-12, "{term} {other}");
@@ -216,70 +171,54 @@ fn the_runtime_has_six_coordinates_more() {
 }
 
 fn in_scene(lines: &str) -> String {
-    let (robot, _) = two_legs()
-        .split_once("[scene.")
-        .map(|(a, b)| (a.to_owned(), b.to_owned()))
-        .unwrap();
+    let text = two_legs();
+    let (robot, _) = text.split_once("[scene.").unwrap();
     format!("{robot}[scene.stand]\n{lines}\n")
+}
+
+/// Returns the text of the one scene, which says the same behind that of the robot.
+#[track_caller]
+fn scene_written(Reading { robot, scenes, .. }: &Reading) -> String {
+    let text = scene::write(only(scenes));
+    let again = reading(&format!("{}{text}", written(robot)));
+    assert_eq!(again.scenes, *scenes);
+    text
 }
 
 /// A base that is locked is that of a fixed tree; gravity is the file's, or the scene's.
 #[test]
 fn a_scene_locks_the_base() {
-    let reading = reading(&in_scene(
-        "lock = { trunk = \"level\", right_slide = 0.05 }",
-    ));
-    let [scene] = reading.scenes.as_slice() else {
-        panic!("one scene");
-    };
+    let lock = "lock = { trunk = \"level\", right_slide = 0.05 }";
+    let reading = reading(&in_scene(lock));
+    let scene = &reading.scenes[0];
     assert!(scene.lock_base && scene.lock.len() == 1);
     let held = scene.apply(&reading.robot);
     assert!(held.floating.is_none() && held.is_tree());
     assert_eq!((held.coordinates(), held.depth()), (4, 2));
-    let frames: Vec<&str> = held
-        .frames
-        .iter()
-        .map(|frame| frame.name.as_str())
-        .collect();
-    assert_eq!(frames, ["left_foot", "right_foot"]);
-    let text = scene::write(scene);
-    assert!(
-        text.contains("lock = { base = \"level\", 4 = 0.05 }"),
-        "{text}"
-    );
-    let head = written(&reading.robot);
-    assert_eq!(
-        crate::support::reading(&format!("{head}{text}")).scenes[0],
-        *scene
-    );
+    let frames = held.frames.iter().map(|frame| frame.name.as_str());
+    assert!(frames.eq(["left_foot", "right_foot"]), "{:?}", held.frames);
+    let text = scene_written(&reading);
+    let lock = "lock = { base = \"level\", 4 = 0.05 }";
+    assert!(text.contains(lock), "{text}");
     // The same torques as of a base that floats and is at rest.
     let [fixed, floating] = [&held, &reading.robot].map(Reference::from_robot);
     let vector = |n: usize| DVector::from_fn(n, |i, _| 0.3 - 0.2 * i as f64);
     let (q, qd) = (vector(4), vector(4) * 2.0);
     let found = fixed.inverse_dynamics(&q, &qd, &qd).unwrap();
-    let wide =
-        |rates: &DVector<f64>| DVector::from_fn(10, |i, _| if i < 6 { 0.0 } else { rates[i - 6] });
-    let expected = floating
-        .inverse_dynamics(&q, &wide(&qd), &wide(&qd))
-        .unwrap();
+    let wide = DVector::from_fn(10, |i, _| if i < 6 { 0.0 } else { qd[i - 6] });
+    let expected = floating.inverse_dynamics(&q, &wide, &wide).unwrap();
     assert!((found - expected.rows(6, 4)).amax() < 1e-14);
 }
 
 /// A payload on the base is felt by the base alone while no joint moves: F = m (a - g), and r x F.
 #[test]
 fn a_base_carries_a_payload() {
-    let reading = reading(&in_scene(
-        "payload = { link = \"trunk\", mass = 2, com = [0.1, -0.2, 0.3] }",
-    ));
+    let payload = "payload = { link = \"trunk\", mass = 2, com = [0.1, -0.2, 0.3] }";
+    let reading = reading(&in_scene(payload));
     let scene = &reading.scenes[0];
     assert_eq!(scene.payload_link, Some(Parent::Base));
-    let text = scene::write(scene);
+    let text = scene_written(&reading);
     assert!(text.contains("link = \"base\""), "{text}");
-    let head = written(&reading.robot);
-    assert_eq!(
-        crate::support::reading(&format!("{head}{text}")).scenes[0],
-        *scene
-    );
     let [loaded, bare] = [&scene.apply(&reading.robot), &reading.robot].map(Reference::from_robot);
     let zero = DVector::zeros(10);
     let a = [0.5, -1.5, 2.0];
@@ -302,44 +241,20 @@ fn a_base_carries_a_payload() {
 }
 
 /// Lines of a scene, and of its error: the message and the help.
-const SCENES: &[(&str, &str, &str)] = &[
-    (
-        "lock = { trunk = 0 }",
-        "expected \"level\"",
-        "trunk = \"level\"",
-    ),
-    (
-        "lock = { trunk = \"tilted\" }",
-        "tilted",
-        "trunk = \"level\"",
-    ),
-    (
-        "lock = { torso = \"level\" }",
-        "there is no joint `torso`",
-        "",
-    ),
-    (
-        "lock = { base = \"level\" }\npayload = { link = \"trunk\", mass = 1, com = [0, 0, 0] }",
-        "on the base, which does not move",
-        "",
-    ),
-    (
-        "lock = { base = \"level\" }\nbox = { velocity = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1] }",
-        "10 entries, but the robot has 4 joints",
-        "one entry a joint",
-    ),
-    (
-        "payload = { mass = 1, com = [0, 0, 0] }",
-        "no link that holds it",
-        "link =",
-    ),
-];
+const SCENES: &str = r#"
+lock = { trunk = 0 } | expected "level" | trunk = "level"
+lock = { trunk = "tilted" } | tilted | trunk = "level"
+lock = { torso = "level" } | there is no joint `torso` |
+lock = { base = "level" }\npayload = { link = "trunk", mass = 1, com = [0, 0, 0] } | on the base, which does not move |
+lock = { base = "level" }\nbox = { velocity = [1, 1, 1, 1, 1, 1, 1, 1, 1, 1] } | 10 entries, but the robot has 4 joints | one entry a joint
+payload = { mass = 1, com = [0, 0, 0] } | no link that holds it | link =
+"#;
 
 #[test]
 fn scenes_of_a_base_are_refused_with_the_reason() {
-    for (lines, message, help) in SCENES {
-        let errors = errors(&in_scene(lines));
-        has(only(&errors), message, help);
+    for [lines, message, help] in rows(SCENES) {
+        let errors = errors(&in_scene(&lines));
+        has(only(&errors), &message, &help);
     }
     let level = "lock = { base = \"level\" }\nbox = { velocity = [1, 1, 1, 1] }";
     assert_eq!(reading(&in_scene(level)).scenes.len(), 1);

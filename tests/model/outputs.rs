@@ -1,5 +1,4 @@
-//! The table of outputs: what there is, and identities of its formulas that
-//! hold for every arm, checked exactly in the prime field.
+//! The table of outputs, and identities of its formulas, checked exactly in the prime field.
 
 mod frames;
 mod slopes;
@@ -188,7 +187,7 @@ fn regressors_give_the_torques() {
         let y = recursion.regressor(arm, at, qd, qdd, &columns);
         assert_eq!(products(arm, &y, [qd, qdd]), tau);
         let [v, a] = [(); 2].map(|()| fields(qd.len(), &mut points));
-        let tau = exact.passivity(arm, at, qd, [&v, &a]);
+        let tau = exact.passivity(arm, at, [qd, &v, &a]);
         let y = recursion.passivity_regressor(arm, at, qd, [&v, &a], &columns);
         assert_eq!(products(arm, &y, [&v, &a]), tau);
     }
@@ -262,7 +261,7 @@ fn energy_and_wrenches_belong_to_the_torques() {
         let form = Formulation::NewtonEulerLink;
         let c = form.gravity(arm, at);
         let tau = form.inverse_dynamics(arm, at, qd, qdd);
-        let wrenches = form.wrenches(arm, at, qd, qdd);
+        let wrenches = form.wrenches(arm, at, [qd, qdd]);
         let poses = dalembert_model::equations::kinematics::poses(arm, at);
         let base = arm.base.as_ref().map(|base| base.axes[2]);
         let first = base.unwrap_or([Field::ZERO, Field::ZERO, Field::ONE]);

@@ -92,8 +92,7 @@ fn nearly_parallel_axes_stay_near() {
             assert!((apart - 0.4).abs() < 0.002, "{apart}");
         }
     }
-    // Beyond the threshold of 1/64 the common normal is taken, and no more than
-    // 64 times as far away as the axes are apart.
+    // Beyond 1/64 the common normal is taken, at most 64 times as far away as the axes are apart.
     let robot = tilted("0.016", 1);
     assert!(robot.joints[0].beta.is_zero());
     let far = largest(&robot);
@@ -131,10 +130,8 @@ fn errors_say_where_and_what() {
     let first = "placement = { xyz = [0, 0, 0.387], rpy = [0, 0, \"pi/2\"] }";
     for [from, to, line, message, help] in rows(MISTAKES) {
         let diagnostics = said(&replaced(&placed, &from.replace("PLACED", first), &to));
-        let diagnostic = diagnostics
-            .iter()
-            .find(|d| d.message.contains(&message))
-            .unwrap_or_else(|| panic!("{to}: nothing says {message}"));
+        let known = diagnostics.iter().find(|d| d.message.contains(&message));
+        let diagnostic = known.unwrap_or_else(|| panic!("{to}: nothing says {message}"));
         assert_eq!(diagnostic.line().unwrap().to_string(), line, "{to}");
         has(diagnostic, &message, &help);
     }

@@ -71,13 +71,11 @@ fn snapping_at_its_borders() {
             let snapped = SnappedAngle::Taken(Angle::right_angles(sign * n));
             for steps in -down - 1..=up + 1 {
                 let angle = apply(sign as f64 * ulps(double, steps));
-                match (-down..=up).contains(&steps) {
-                    true => assert_eq!(angle, snapped, "{n}: {steps} ulp"),
-                    false => assert!(
-                        matches!(angle, SnappedAngle::Near { .. }),
-                        "{n}: {steps} ulp"
-                    ),
-                }
+                let is_right = match (-down..=up).contains(&steps) {
+                    true => angle == snapped,
+                    false => matches!(angle, SnappedAngle::Near { .. }),
+                };
+                assert!(is_right, "{n}: {steps} ulp: {angle:?}");
             }
         }
     }
@@ -126,10 +124,8 @@ fn in_a_file() {
     ] {
         let reading = parse(&format!("{head}{alpha}")).expect("reads");
         assert_eq!(reading.robot.joints[0].alpha, angle, "{alpha}");
-        let said = reading
-            .notes
-            .iter()
-            .map(|note| (note.severity, note.line().unwrap()));
+        let notes = reading.notes.iter();
+        let said = notes.map(|note| (note.severity, note.line().unwrap()));
         let expected = severity.map(|severity| (severity, 8));
         assert!(said.eq(expected), "{alpha}: {:?}", reading.notes);
         for note in &reading.notes {

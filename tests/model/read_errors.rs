@@ -1,5 +1,4 @@
-//! Errors of a file are on the right line, in words that help,
-//! and all at once. One row a case.
+//! Errors of a file are on the right line, in words that help, and all at once.
 
 use crate::support::{errors, has, only, replaced};
 use dalembert_model::read::{Diagnostic, MAX_BYTES, parse, parse_bytes};
@@ -153,9 +152,9 @@ fn one_row_a_case() {
     assert_eq!(errors(GOOD), []);
     for (what, by, message, help) in ROWS {
         let errors = errors(&replaced(GOOD, what, by));
-        let said = |diagnostic: &Diagnostic| {
-            diagnostic.message.contains(message)
-                && diagnostic.help.as_deref().unwrap_or("").contains(help)
+        let said = |error: &Diagnostic| {
+            let hint = error.help.as_deref().unwrap_or_default();
+            error.message.contains(message) && hint.contains(help)
         };
         let what = format!("{by:?} for {what:?}: expected {message:?} ({help:?})");
         assert!(errors.iter().any(said), "{what}, found {errors:#?}");
@@ -233,10 +232,8 @@ fn joints() {
         (twice, "joint 1 is called \"waist\" already", 10),
     ] {
         let errors = errors(&text);
-        assert_eq!(
-            (&*only(&errors).message, errors[0].line().unwrap()),
-            (message, line)
-        );
+        let said = (&*only(&errors).message, errors[0].line().unwrap());
+        assert_eq!(said, (message, line));
     }
     has(&errors(head)[0], "no `joint`", "");
     has(&errors(&format!("joint = []\n{head}"))[0], "not 0", "");

@@ -1,5 +1,4 @@
-//! `base` and `tool` of a robot file: what is read is written, and what is wrong is
-//! said; `placed` has arms with both.
+//! `base`, `tool` and frames of a robot file: what is read is written, and what is wrong is said.
 
 use crate::support::{errors, has, only, ratio, reading, refused, rows, vector, written};
 use dalembert_model::number::Angle;
@@ -93,11 +92,8 @@ fn frames_are_read_and_written_back() {
     let more = "frame = { xyz = [0, 0, 0.1] }\n\n[[frame]]\nname = \"camera\"\nlink = 2\n\
                 xyz = [0.1, 0, 0]\nrpy = [0, \"pi/2\", 0]\n[[frame]]\nname = \"base_1\"\nlink = \"1\"\n";
     let robot = reading(&(file("") + more)).robot;
-    assert_eq!(robot.frames.len(), 2);
-    assert_eq!(
-        (robot.frames[0].row, robot.frames[1].row),
-        (Some(1), Some(0))
-    );
+    let rows: Vec<_> = robot.frames.iter().map(|frame| frame.row).collect();
+    assert_eq!(rows, [Some(1), Some(0)]);
     assert_eq!(robot.frames[0].placement.rpy[1], Angle::right_angles(1));
     let placement = robot.joints[1].frame.as_ref().unwrap();
     assert_eq!(placement.xyz[2], ratio(1, 10));

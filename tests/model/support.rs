@@ -2,10 +2,13 @@
 
 use std::fmt::Debug;
 
+use crate::equations_support::golden::numbers;
+use dalembert_model::equations::{JointPosition, SinCosPair};
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Diagnostic, Reading, parse};
-use dalembert_model::robot::{Robot, write};
+use dalembert_model::robot::{JointKind, Robot, write};
 use nalgebra::DVector;
+use serde_json::Value;
 
 pub const ROBOTS: [&str; 6] = [
     "puma560", "stanford", "ur10", "panda", "planar2r", "planar3r",
@@ -55,6 +58,46 @@ pub fn has(said: &Diagnostic, message: &str, help: &str) {
     assert!(said.message.contains(message), "{message}: {said:?}");
     let hint = said.help.as_deref().unwrap_or_default();
     assert!(hint.contains(help), "{help}: {said:?}");
+}
+
+/// Asserts that mistakes are said. Each is a piece of the file, what it is replaced by, and of the
+/// error that is said then its line, its message and its help.
+#[track_caller]
+pub fn are_said_at_their_lines(file: &str, mistakes: &[(&str, &str, usize, &str, &str)]) {
+    for (piece, by, line, message, help) in mistakes {
+        let text = replaced(file, piece, by);
+        let errors = errors(&text);
+        let error = only(&errors);
+        has(error, message, help);
+        let before = &text[..error.excerpt().unwrap().span.start];
+        let error_line = before.matches('\n').count() + 1;
+        assert_eq!(error_line, *line, "{}", refused(&text));
+    }
+}
+
+pub fn positions(robot: &Robot, q: &[f64]) -> impl Iterator<Item = JointPosition<f64>> {
+    let joints = robot.joints.iter().zip(q);
+    joints.map(|(joint, q)| match joint.kind {
+        JointKind::Prismatic => JointPosition::Prismatic(*q),
+        JointKind::Revolute => {
+            let (sin, cos) = q.sin_cos();
+            JointPosition::Revolute(SinCosPair { sin, cos })
+        }
+    })
+}
+
+/// Asserts that results are those of a state in a file, but for this part of the largest entry.
+#[track_caller]
+pub fn agree(results: &[(&str, Vec<f64>)], state: &Value, part: f64, by: impl Debug) {
+    for (key, results) in results {
+        let expected = numbers(&state[*key]);
+        assert_eq!(results.len(), expected.len(), "{key}");
+        let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (result, expected) in results.iter().zip(&expected) {
+            let off = (result - expected).abs();
+            assert!(off <= part * size, "{by:?} {key}: {off:e} of {size}");
+        }
+    }
 }
 
 #[track_caller]

@@ -1,11 +1,11 @@
 //! Robots whose links branch: what their files say, and their values.
 
-use crate::support::{data, errors, has, only, reading, refused, replaced, written};
+use crate::equations_support::golden::numbers;
+use crate::support::{agree, are_said_at_their_lines, data, positions, reading, replaced, written};
 use dalembert_model::equations::frames::{Axes, Rows, View};
-use dalembert_model::equations::matrix::Columns;
-use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
+use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Rational, Rounded};
-use dalembert_model::robot::{JointKind, Parent, Robot};
+use dalembert_model::robot::{Parent, Robot};
 use serde_json::Value;
 
 fn two_arms() -> String {
@@ -26,10 +26,8 @@ fn parents_are_read_and_written() {
     let by_number = reading(&replaced(&two_arms(), "parent = \"torso\"", "parent = 1"));
     assert_eq!(by_number.robot, robot);
     // A parent that is the link before says nothing.
-    let text = two_arms().replace(
-        "name = \"left_elbow\"\n",
-        "name = \"left_elbow\"\nparent = 2\n",
-    );
+    let name = "name = \"left_elbow\"\n";
+    let text = two_arms().replace(name, &format!("{name}parent = 2\n"));
     assert_eq!(reading(&text).robot.input_hash(), robot.input_hash());
     // Two arms may stand on the ground beside each other.
     let beside = two_arms().replace("parent = \"torso\"", "parent = \"base\"");
@@ -66,8 +64,6 @@ fn axes_have_length_one_exactly() {
     }
 }
 
-/// Pieces of the file, what they are replaced by, and of the error that is said then: its line,
-/// its message and its help.
 #[rustfmt::skip]
 const ROWS: &[(&str, &str, usize, &str, &str)] = &[
     ("parent = \"torso\"", "parent = \"right_wrist\"", 36, "joint 5 (right_wrist), which carries this joint, comes later", "put the [[joint]] table of joint 5 (right_wrist) before this one"),
@@ -84,17 +80,7 @@ const ROWS: &[(&str, &str, usize, &str, &str)] = &[
 
 #[test]
 fn mistakes_are_said_at_their_lines() {
-    for (piece, by, line, message, help) in ROWS {
-        let text = replaced(&two_arms(), piece, by);
-        let errors = errors(&text);
-        let error = only(&errors);
-        has(error, message, help);
-        let error_line = text[..error.excerpt().unwrap().span.start]
-            .matches('\n')
-            .count()
-            + 1;
-        assert_eq!(error_line, *line, "{}", refused(&text));
-    }
+    are_said_at_their_lines(&two_arms(), ROWS);
 }
 
 /// τ, c, D, ∂τ/∂q, ∂τ/∂q̇ and the pose of a frame are those of Pinocchio, by every formulation.
@@ -109,45 +95,20 @@ fn values_are_those_of_another_library() {
         rows: Rows::ALL,
     };
     let frame_arm = arm.seen(&view).unwrap();
-    let list = |value: &Value| -> Vec<f64> {
-        let numbers = value.as_array().unwrap().iter();
-        numbers.map(|number| number.as_f64().unwrap()).collect()
-    };
     for state in golden["states"].as_array().unwrap() {
-        let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| list(&state[key]));
-        let position = robot
-            .joints
-            .iter()
-            .zip(&q)
-            .map(|(joint, q)| match joint.kind {
-                JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-                    sin: q.sin(),
-                    cos: q.cos(),
-                }),
-                JointKind::Prismatic => JointPosition::Prismatic(*q),
-            });
-        let at = arm.at(&position.collect::<Vec<_>>());
+        let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
+        let at = arm.at(&positions(&robot, &q).collect::<Vec<_>>());
         for by in Formulation::ALL {
-            let rows = |pose: Columns<f64>| pose.rows();
+            let by_position = by.torque_by_position(&arm, &at, &qd, &qdd);
             let results = [
                 ("tau", by.inverse_dynamics(&arm, &at, &qd, &qdd)),
                 ("gravity", by.gravity(&arm, &at)),
                 ("inertia", by.inertia(&arm, &at).concat()),
-                (
-                    "dtau_dq",
-                    by.torque_by_position(&arm, &at, &qd, &qdd).concat(),
-                ),
+                ("dtau_dq", by_position.concat()),
                 ("dtau_dqd", by.torque_by_velocity(&arm, &at, &qd).concat()),
-                ("frame", rows(by.hand(&frame_arm, &at))),
+                ("frame", by.hand(&frame_arm, &at).rows()),
             ];
-            for (key, found) in results {
-                let expected = list(&state[key]);
-                let size = expected.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-                for (found, expected) in found.iter().zip(&expected) {
-                    let off = (found - expected).abs();
-                    assert!(off <= 4e-15 * size, "{by:?} {key}: {off:e} of {size}");
-                }
-            }
+            agree(&results, state, 4e-15, by);
         }
     }
 }

@@ -31,7 +31,6 @@ impl Compiler {
         })
     }
 
-    /// Compiles a file that should be refused.
     pub fn check(&self, case: &Path) -> io::Result<Output> {
         self.command(case)
             .args(["--emit", "metadata", "--out-dir"])

@@ -102,11 +102,9 @@ impl Builder {
 
     pub(crate) fn add(&mut self, a: Edge, b: Edge) -> Edge {
         let constants = [a, b].map(|edge| self.size(edge));
+        let adds = a.negative == b.negative;
         if let [Some(x), Some(y)] = constants {
-            let sum = match a.negative == b.negative {
-                true => x.add(y),
-                false => x.sub(y),
-            };
+            let sum = if adds { x.add(y) } else { x.sub(y) };
             return self.constant(&sum).negated_if(a.negative);
         }
         let [x_is_zero, y_is_zero] = constants.map(|x| x.is_some_and(Scalar::is_zero));
@@ -121,10 +119,7 @@ impl Builder {
             return self.zero();
         }
         let [a, b] = if a.node <= b.node { [a, b] } else { [b, a] };
-        let operation = match a.negative == b.negative {
-            true => Operation::Add,
-            false => Operation::Sub,
-        };
+        let operation = if adds { Operation::Add } else { Operation::Sub };
         self.operation(operation, a.node, b.node)
             .negated_if(a.negative)
     }
@@ -134,26 +129,18 @@ impl Builder {
     }
 
     pub(crate) fn mul(&mut self, a: Edge, b: Edge) -> Edge {
-        let negative = a.negative != b.negative;
-        let product = match [a, b].map(|edge| self.size(edge)) {
-            [Some(x), Some(y)] => {
-                let product = x.mul(y);
-                self.constant(&product)
-            }
-            constants => {
-                let [x, y] = constants.map(|x| x.cloned());
-                self.asked.mul += 1;
-                match (x, y) {
-                    (Some(x), _) => self.scale(x, b.node),
-                    (_, Some(y)) => self.scale(y, a.node),
-                    (None, None) => {
-                        let [a, b] = [a.node.min(b.node), a.node.max(b.node)];
-                        self.operation(Operation::Mul, a, b)
-                    }
-                }
+        let [x, y] = [a, b].map(|edge| self.size(edge).cloned());
+        self.asked.mul += usize::from(x.is_none() || y.is_none());
+        let product = match (x, y) {
+            (Some(x), Some(y)) => self.constant(&x.mul(&y)),
+            (Some(x), None) => self.scale(x, b.node),
+            (None, Some(y)) => self.scale(y, a.node),
+            (None, None) => {
+                let [a, b] = [a.node.min(b.node), a.node.max(b.node)];
+                self.operation(Operation::Mul, a, b)
             }
         };
-        product.negated_if(negative)
+        product.negated_if(a.negative != b.negative)
     }
 
     fn scale(&mut self, x: Exact, node: Id) -> Edge {
@@ -278,7 +265,7 @@ impl Builder {
         edge
     }
 
-    pub(crate) fn copy(&mut self, dag: &Dag) -> Vec<Edge> {
+    pub(crate) fn results(&mut self, dag: &Dag) -> Vec<Edge> {
         let mut edges: Vec<Edge> = Vec::with_capacity(dag.nodes.len());
         for (node, reads) in dag.nodes.iter().zip(dag.reads()) {
             let edge = match node {
@@ -291,11 +278,6 @@ impl Builder {
             };
             edges.push(edge);
         }
-        edges
-    }
-
-    pub(crate) fn results(&mut self, dag: &Dag) -> Vec<Edge> {
-        let edges = self.copy(dag);
         let result = |edge: &Edge| edges[edge.index()].negated_if(edge.negative);
         dag.outputs.iter().map(result).collect()
     }

@@ -15,10 +15,8 @@ use super::{Dag, Edge, Id, Node, Operation, signed};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fusion {
     pub factors: [Id; 2],
-    /// `true` if the product is subtracted.
     pub negative: bool,
     pub addend: Id,
-    /// `true` if the addend is subtracted.
     pub minus: bool,
 }
 
@@ -58,16 +56,10 @@ impl<C, I> Dag<C, I> {
 
     /// Returns the length of the longest chain of operations; a fused multiply-add counts as one.
     pub fn depth(&self) -> usize {
-        let mut depths: Vec<usize> = Vec::with_capacity(self.nodes.len());
-        for node in &self.nodes {
-            let depth = match node {
-                Node::Constant(_) | Node::Input(_) => 0,
-                Node::Apply(operation, operands) => {
-                    let before = operands.map(|id| depths[id as usize]);
-                    before[0].max(before[1]) + usize::from(*operation != Operation::Fused)
-                }
-            };
-            depths.push(depth);
+        let mut depths = vec![0; self.nodes.len()];
+        for (id, operation, operands) in self.operations() {
+            let [a, b] = operands.map(|id| depths[id as usize]);
+            depths[id as usize] = a.max(b) + usize::from(operation != Operation::Fused);
         }
         depths.into_iter().max().unwrap_or(0)
     }

@@ -31,7 +31,6 @@ pub(crate) use print::Fingerprint;
 pub use print::Points;
 pub(crate) use writer::Writer;
 
-/// The index of a node.
 pub type Id = u32;
 
 /// A leaf, or an operation on earlier nodes.
@@ -203,9 +202,8 @@ impl<C, I> Dag<C, I> {
         for id in (0..=top).rev() {
             if is_needed[id as usize] {
                 needed.push(id);
-                let operands = self.node(id).operands();
-                let operands = operands.iter().flat_map(|operands| operands.iter());
-                operands.for_each(|id| is_needed[*id as usize] = true);
+                let operands = self.node(id).operands().into_iter().flatten();
+                operands.for_each(|id| is_needed[id as usize] = true);
             }
         }
         needed.reverse();
@@ -235,12 +233,10 @@ impl<C, I> Dag<C, I> {
 
     /// True if every operation comes after its operands, and every output is a node.
     pub fn is_straight(&self) -> bool {
-        let mut nodes = self.nodes.iter().zip(0..);
         let count = self.nodes.len();
-        nodes.all(|(node, id)| {
-            node.operands()
-                .is_none_or(|operands| operands.iter().all(|o| *o < id))
-        }) && self.outputs.iter().all(|edge| edge.index() < count)
+        let mut nodes = self.nodes.iter().zip(0..);
+        nodes.all(|(node, id)| node.operands().into_iter().flatten().all(|read| read < id))
+            && self.outputs.iter().all(|edge| edge.index() < count)
     }
 
     /// Counts how often each node is read, by outputs too, where the outputs need it.

@@ -87,9 +87,7 @@ impl Operation {
 /// An input of a program. Joints are zero-based.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Input {
-    /// The sine of a joint's angle.
     Sin(usize),
-    /// The cosine of a joint's angle.
     Cos(usize),
     /// 1/√(q̇² + w²) of a joint with Coulomb friction, w being its width.
     PerSpeed(usize),

@@ -38,32 +38,23 @@ impl Leaf {
 }
 
 /// Returns the value of a pattern in a builder, from that of its leaves; variables come first, in
-/// alphabetical order.
-///
-/// # Panics
-/// On anything but a pattern: tables are the project's own.
+/// alphabetical order. Panics on anything but a pattern: tables are the project's own.
 pub(crate) fn evaluate(
     pattern: &str,
     builder: &mut Builder,
     mut leaf: impl FnMut(Leaf, &mut Builder) -> Edge,
 ) -> Edge {
     let pattern: RecExpr<SymbolLang> = pattern.parse().expect("a pattern");
-    let names: BTreeSet<&str> = pattern
-        .iter()
-        .map(|node| node.op.as_str())
-        .filter(|name| name.starts_with('?'))
-        .collect();
-    let variables: BTreeMap<&str, Edge> = names
-        .into_iter()
-        .map(|name| (name, leaf(Leaf::read(name), builder)))
-        .collect();
+    let symbols = pattern.iter().map(|node| node.op.as_str());
+    let names: BTreeSet<&str> = symbols.filter(|name| name.starts_with('?')).collect();
+    let mut variables: BTreeMap<&str, Edge> = BTreeMap::new();
+    for name in names {
+        variables.insert(name, leaf(Leaf::read(name), builder));
+    }
     let mut values: Vec<Edge> = Vec::new();
     for node in pattern.iter() {
-        let operands: Vec<Edge> = node
-            .children
-            .iter()
-            .map(|id| values[usize::from(*id)])
-            .collect();
+        let children = node.children.iter();
+        let operands: Vec<Edge> = children.map(|id| values[usize::from(*id)]).collect();
         let value = match (node.op.as_str(), operands.as_slice()) {
             (name, []) => match variables.get(name) {
                 Some(value) => *value,

@@ -148,9 +148,8 @@ mod tests {
         let cosine = Exact::sincos(&angle).cos;
         let inverse = Symbol::one().div(&Symbol::constant(&cosine));
         assert!(matches!(inverse, Symbol::Quotient(..)));
-        let twice = inverse
-            .add(&inverse)
-            .sub(&inverse.neg().neg().half().double());
+        let same = inverse.neg().neg().half().double();
+        let twice = inverse.add(&inverse).sub(&same);
         let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
         let x = Symbol::input(&builder, Input::Entry(Argument::Velocity, 0));
         let product = twice.mul(&x).edge(&mut builder.borrow_mut());

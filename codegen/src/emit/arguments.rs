@@ -4,12 +4,12 @@
 use dalembert_checker::payload as checked;
 use dalembert_checker::places::Places;
 use dalembert_model::outputs::{Axis, RuntimeParameter, Sizes};
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{Joint, Robot};
 
-use super::say;
+use super::paragraph;
 use crate::figures::{decimal, placed};
 use crate::function::{Argument, Function, Quantity};
-use crate::language::c99::Names;
+use crate::language::c99::{Names, float};
 use crate::language::function::{BODIES, BODY, GRAVITY, LOAD, PAYLOAD};
 use crate::language::{comment, list};
 use crate::program::ScalarType;
@@ -26,11 +26,8 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
 }
 
 fn placed_names(robot: &Robot) -> Option<Places> {
-    let names: Vec<Option<&str>> = robot
-        .joints
-        .iter()
-        .map(|joint| joint.name.as_deref())
-        .collect();
+    let joints = robot.joints.iter();
+    let names: Vec<Option<&str>> = joints.map(|joint| joint.name.as_deref()).collect();
     let floats = robot.floating.is_some();
     let limbs = floats.then(|| Sizes::of(robot).limb_starts().collect());
     (robot.is_tree()).then(|| Places::new(&names, limbs))
@@ -46,14 +43,12 @@ pub(super) fn places(robot: &Robot) -> String {
     let mut say = |doc: &str, name: &str, place: usize| {
         text += &format!("/// {doc}\npub const {name}: usize = {place};\n");
     };
-    let (what, of) = match robot.floating {
-        None => ("The number of entries of a velocity.", "arguments"),
-        Some(_) => (
-            "The number of entries of velocities, accelerations and torques.",
-            "velocities",
-        ),
+    let (entries, of) = match robot.floating {
+        None => ("a velocity", "arguments"),
+        Some(_) => ("velocities, accelerations and torques", "velocities"),
     };
-    say(what, "NV", coordinates);
+    let doc = format!("The number of entries of {entries}.");
+    say(&doc, "NV", coordinates);
     for (name, place) in &places.velocities {
         let doc = match robot.joint_of(*place) {
             None => {
@@ -109,36 +104,25 @@ pub(super) fn layout(function: Function, setup: &Setup) -> Vec<String> {
     let of = |argument: &Argument| argument.length(setup.sizes(function)) == coordinates;
     let of_results = |quantity: &Quantity| quantity.shape().0.contains(&Axis::Coordinates);
     if function.arguments().iter().any(of) || function.quantities().iter().any(of_results) {
-        let layout = [
+        lines.extend(paragraph([
             "",
             "Velocities, accelerations and torques have six entries of the base first, in the base's axes:",
             "linear x, y, z (m/s, m/s², N), angular x, y, z (rad/s, rad/s², N·m). Positions have none.",
-        ];
-        say(&mut lines, layout);
+        ]));
     }
     let of_limbs = |quantity: &Quantity| quantity.shape().0.contains(&Axis::Limbs);
     if function.quantities().iter().any(of_limbs) {
-        let limbs = setup
-            .limbs()
-            .into_iter()
-            .map(|limb| {
-                let joints = limb.iter().map(|joint| (joint + 1).to_string());
-                joints.collect::<Vec<String>>().join(", ")
-            })
-            .collect::<Vec<String>>()
-            .join("; ");
-        say(
-            &mut lines,
-            ["", &format!("The joints of each limb: {limbs}.")],
-        );
+        let joints = |limb: &Vec<usize>| list(limb.iter().map(|joint| (joint + 1).to_string()));
+        let limbs: Vec<String> = setup.limbs().iter().map(joints).collect();
+        let text = format!("The joints of each limb: {}.", limbs.join("; "));
+        lines.extend([String::new(), text]);
     }
     if function.quantities().contains(&Quantity::Gravity) {
-        let flight = [
+        lines.extend(paragraph([
             "",
             "The joints' entries hold the joints only while something holds the base with its six.",
             "In flight nothing does: there these torques alone turn the base.",
-        ];
-        say(&mut lines, flight);
+        ]));
     }
     lines
 }
@@ -160,12 +144,8 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
         text += "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
                  /// [`Payload::new`], whose arguments these are, in their order.\n";
         newtype(&mut text, PAYLOAD, "", scalar, 10);
-        text += &methods(
-            PAYLOAD,
-            "Nothing is carried.",
-            &payload(setup, scalar),
-            scalar,
-        );
+        let doc = payload(setup, scalar);
+        text += &methods(PAYLOAD, "Nothing is carried.", &doc, scalar);
     }
     if setup.has(RuntimeParameter::Bodies) {
         bodies(&mut text, setup, scalar);
@@ -213,11 +193,8 @@ fn load_doc(setup: &Setup) -> &'static str {
 }
 
 fn methods(kind: &str, none: &str, doc: &[String], scalar: ScalarType) -> String {
-    let methods = checked::rust(scalar == ScalarType::F32, kind).replacen(
-        "pub",
-        &format!("/// {none}\npub"),
-        1,
-    );
+    let none = format!("/// {none}\npub");
+    let methods = checked::rust(scalar == ScalarType::F32, kind).replacen("pub", &none, 1);
     let (new, doc) = ("pub const fn", comment("///", doc));
     let documented = format!(
         "/// A body of these numbers; `None` if no body has them.\n///\n{doc}#[must_use]\n{new}"
@@ -230,12 +207,8 @@ fn bodies(text: &mut String, setup: &Setup, scalar: ScalarType) {
     *text +=
         "/// The body of a link: see [`Body::new`], whose arguments these are, in their order.\n";
     newtype(text, BODY, "", scalar, 10);
-    *text += &methods(
-        BODY,
-        "A link that weighs nothing.",
-        &body(setup, scalar),
-        scalar,
-    );
+    let doc = body(setup, scalar);
+    *text += &methods(BODY, "A link that weighs nothing.", &doc, scalar);
     *text += &format!("/// {}\n", of_links(setup));
     newtype(text, BODIES, "", scalar, 10 * count);
     let kept = match setup.zeros() {
@@ -257,32 +230,27 @@ fn bodies(text: &mut String, setup: &Setup, scalar: ScalarType) {
 }
 
 fn of_links(setup: &Setup) -> String {
-    let links: Vec<String> = setup
-        .body_links()
-        .into_iter()
-        .map(|link| match link {
-            0 => "the base".to_owned(),
-            link => link.to_string(),
-        })
-        .collect();
-    format!("The bodies of links: {}, in this order.", links.join(", "))
+    let named = |link: usize| match link {
+        0 => "the base".to_owned(),
+        link => link.to_string(),
+    };
+    let links = list(setup.body_links().into_iter().map(named));
+    format!("The bodies of links: {links}, in this order.")
 }
 
 pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     let dialect = names.dialect();
-    let mut doc = Vec::new();
-    let head = [
+    let mut doc = Vec::from(paragraph([
         "A body fixed to the last link, beside what the robot file has there. `numbers` has [0] its",
         "`mass`, [1] to [3] its `com` and [4] to [9] its `inertia`; zeros: nothing is carried. Returns",
         "1, or 0 if no body has these numbers; then `payload` stays as it was.",
         "",
-    ];
-    say(&mut doc, head);
+    ]));
     doc.extend(payload(setup, dialect.scalar));
     let symbols = names.symbols(Function::Load);
     let is_single = dialect.scalar == ScalarType::F32;
-    let names = [symbols.prefix.as_str(), &symbols.macros];
-    let text = checked::c(is_single, dialect.function, names, "payload");
+    let both = [symbols.prefix.as_str(), &symbols.macros];
+    let text = checked::c(is_single, dialect.function, both, "payload");
     (doc, indented(&text))
 }
 
@@ -291,16 +259,13 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
     let (dialect, symbols) = (names.dialect(), names.symbols(Function::Load));
     let (scalar, is_single) = (dialect.scalar, dialect.scalar == ScalarType::F32);
     let mut items = Vec::new();
-    let both = [symbols.prefix.as_str(), &symbols.macros];
-    let real = scalar.of("double", "float");
+    let both @ [prefix, macros] = [symbols.prefix.as_str(), &symbols.macros];
     if setup.has(RuntimeParameter::Bodies) {
-        let mut doc = Vec::new();
-        let head = [
+        let mut doc = Vec::from(paragraph([
             "The body of a link. `numbers` has [0] its `mass`, [1] to [3] its `com` and [4] to [9] its",
             "`inertia`. Returns 1, or 0 if no body has these numbers; then `body` stays as it was.",
             "",
-        ];
-        say(&mut doc, head);
+        ]));
         doc.extend(body(setup, scalar));
         let text = checked::c(is_single, dialect.function, both, "body");
         items.push((doc, indented(&text)));
@@ -312,33 +277,21 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
             "The function puts a body in a place, from zero: returns 1, or 0 if there is no such place{kept}."
         );
         let mut doc = vec![of_links(setup)];
-        doc.extend(said.lines().map(str::to_owned));
+        doc.extend(said.lines().map(String::from));
         let count = setup.body_links().len();
         let text = checked::c_bodies(is_single, dialect.function, both, (count, setup.zeros()));
         items.push((doc, indented(&text)));
-        let kind = format!(
-            "{}_bodies_t into[{}_RESTRICT 1]",
-            symbols.prefix, symbols.macros
-        );
-        items.push((
-            vec!["Fills in the bodies of this robot.".to_owned()],
-            filling(
-                setup,
-                RuntimeParameter::Bodies,
-                names,
-                [&kind, "into->bodies"],
-            ),
-        ));
+        let kind = format!("{prefix}_bodies_t into[{macros}_RESTRICT 1]");
+        let into = [kind.as_str(), "into->bodies"];
+        let doc = vec!["Fills in the bodies of this robot.".to_owned()];
+        items.push((doc, filling(setup, RuntimeParameter::Bodies, names, into)));
     }
     for (parameter, doc) in DRIVES {
         if setup.has(parameter) {
-            let rows = setup.robot().rows().len();
-            let kind = format!("{real} into[{}_RESTRICT {rows}]", symbols.macros);
-            let doc = doc.replacen("The", "Fills in the", 1);
-            items.push((
-                vec![format!("{doc} of this robot.")],
-                filling(setup, parameter, names, [&kind, "into"]),
-            ));
+            let (real, rows) = (float(scalar), setup.robot().rows().len());
+            let kind = format!("{real} into[{macros}_RESTRICT {rows}]");
+            let doc = vec![doc.replacen("The", "Fills in the", 1) + " of this robot."];
+            items.push((doc, filling(setup, parameter, names, [&kind, "into"])));
         }
     }
     items
@@ -361,12 +314,8 @@ fn filling(
 }
 
 fn body(setup: &Setup, scalar: ScalarType) -> Vec<String> {
-    let has_placements = setup
-        .robot()
-        .rows()
-        .iter()
-        .any(|row| row.frame.is_some() || row.place.is_some());
-    let link = match has_placements {
+    let is_placed = |row: &&Joint| row.frame.is_some() || row.place.is_some();
+    let link = match setup.robot().rows().iter().any(is_placed) {
         true => "link in the robot file, that of its placement",
         false => "link, that of its row in the table",
     };
@@ -420,35 +369,31 @@ fn newtype(text: &mut String, name: &str, public: &str, scalar: ScalarType, leng
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = Vec::new();
     if setup.takes(function, RuntimeParameter::Gravity) && setup.robot().floating.is_some() {
-        let gravity = [
+        lines.extend(paragraph([
             "",
             "`g` is the acceleration of gravity, m/s², turned into the axes that the base has now; the same",
             "however the base moves.",
-        ];
-        say(&mut lines, gravity);
+        ]));
     } else if setup.takes(function, RuntimeParameter::Gravity) {
-        let gravity = [
+        lines.extend(paragraph([
             "",
             "`g` is the acceleration of gravity in base axes, m/s². Where the base is tilted, turn it into",
             "the base's axes; where it moves without turning, subtract its acceleration.",
-        ];
-        say(&mut lines, gravity);
+        ]));
     }
     if setup.takes_load(function) && !setup.has(RuntimeParameter::Payload) {
-        let load = [
+        lines.extend(paragraph([
             "",
             "`load` is what [`load`] returns of bodies and drives. Proved with all of their numbers as",
             "variables.",
-        ];
-        say(&mut lines, load);
+        ]));
     }
     if setup.takes(function, RuntimeParameter::Payload) {
-        let load = [
+        lines.extend(paragraph([
             "",
             "`load` is what [`load`] returns of what the hand carries. Proved with all ten numbers of",
             "the payload as variables.",
-        ];
-        say(&mut lines, load);
+        ]));
     }
     lines
 }

@@ -37,10 +37,8 @@ fn operations(dialect: Dialect, margin: &str) -> (String, [String; 2]) {
     let kernel: Kernel = routine(dialect.scalar);
     let lines = Lines::of_kernel(dialect, &kernel, "x0", "x");
     let steps = lines.statements().map(|line| format!("{margin}{line}\n"));
-    let results = kernel
-        .results()
-        .map(|result| result.map_or_else(String::new, |edge| lines.result(edge)));
-    (steps.collect(), results)
+    let name = |edge: Option<_>| edge.map_or_else(String::new, |edge| lines.result(edge));
+    (steps.collect(), kernel.results().map(name))
 }
 
 /// The loop has no branch and no integer, of which gcc makes vectors for every processor; clang

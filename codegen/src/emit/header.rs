@@ -180,13 +180,10 @@ pub(crate) fn write(
         if let Some(state_box) = StateBox::of(functions, setup, scalar) {
             state_box.write_c(&mut text, scalar, &names);
         }
-        if functions
-            .iter()
-            .any(|function| function.function == Function::Load)
-        {
-            let payload = setup
-                .has(RuntimeParameter::Payload)
-                .then(|| payload_c(setup, &names));
+        let is_load = |generated: &GeneratedFunction| generated.function == Function::Load;
+        if functions.iter().any(is_load) {
+            let has_payload = setup.has(RuntimeParameter::Payload);
+            let payload = has_payload.then(|| payload_c(setup, &names));
             for (doc, definition) in payload.into_iter().chain(bodies_c(setup, &names)) {
                 comment(&mut text, &doc);
                 text += &definition;
@@ -226,9 +223,9 @@ pub(crate) fn write(
                 doc.push(format!("{name}{length}: {meaning}"));
             }
             for quantity in function.quantities() {
-                let rows = setup.rows();
-                let count = quantity.len(sizes);
-                let units = (0..count).map(|i| quantity.unit(i, rows, sizes, setup.robot()));
+                let entries = 0..quantity.len(sizes);
+                let (rows, robot) = (setup.rows(), setup.robot());
+                let units = entries.map(|i| quantity.unit(i, rows, sizes, robot));
                 let units = units_in_order(units, quantity.shape().0.len() > 1);
                 doc.push(format!("{}{units}", c99::shaped(*quantity, sizes)));
             }
@@ -273,11 +270,7 @@ fn comment(text: &mut String, lines: &[String]) {
 
 /// Returns a line that ends no comment and begins none; without the marks of Rust's documentation.
 fn plain(line: &str) -> String {
-    let line = line
-        .replace("[`", "`")
-        .replace("`]", "`")
-        .replace('\\', "")
-        .replace("*/", "* /")
-        .replace("/*", "/ *");
-    line.replace("??", "? ?")
+    let words = line.replace("[`", "`").replace("`]", "`").replace('\\', "");
+    let ends = words.replace("*/", "* /").replace("/*", "/ *");
+    ends.replace("??", "? ?")
 }

@@ -76,6 +76,6 @@ impl GeneratedFunction {
     }
 }
 
-fn say<const N: usize>(lines: &mut Vec<String>, paragraph: [&str; N]) {
-    lines.extend(paragraph.map(String::from));
+fn paragraph<const N: usize>(lines: [&str; N]) -> [String; N] {
+    lines.map(String::from)
 }

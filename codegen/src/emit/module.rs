@@ -2,11 +2,11 @@
 //! structs and functions.
 
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Follower, JointKind, Parent, Position, Robot};
+use dalembert_model::robot::{Convention, Follower, JointKind, Parent, Placement, Position, Robot};
 use dalembert_model::scene::Scene;
 
 use super::escape::{escaped, sentence};
-use super::say;
+use super::paragraph;
 use super::state_box::StateBox;
 use super::{arguments, parameters, said, variant};
 use crate::emit::GeneratedFunction;
@@ -40,11 +40,9 @@ pub(crate) fn write(
             None => ("JOINTS", "joints"),
             Some(_) => ("COORDINATES", "coordinates of the velocity"),
         };
-        text += &format!(
-            "/// The {what} that results are over, in their order, from zero.\n\
-             pub const {over}: [usize; {}] = {rows:?};\n",
-            rows.len()
-        );
+        let count = rows.len();
+        text += &format!("/// The {what} that results are over, in their order, from zero.\n");
+        text += &format!("pub const {over}: [usize; {count}] = {rows:?};\n");
     }
     text.push_str(&arguments::types(setup, scalar));
     if let Some(state_box) = StateBox::of(functions, setup, scalar) {
@@ -63,12 +61,8 @@ pub(crate) fn write(
             text.push_str(&parameters::constant(generated.function, setup, scalar));
         }
         let doc = function_doc(job, generated, scalar);
-        text.push_str(&function::write(
-            program,
-            code,
-            request.sincos.library(),
-            &doc,
-        ));
+        let library = request.sincos.library();
+        text.push_str(&function::write(program, code, library, &doc));
         if request.batch && columns::are_there(program.function, Language::Rust) {
             text += &format!("\n{}", columns::columns(program, code));
         }
@@ -113,17 +107,15 @@ pub(super) fn header(
     }
     if let Some(tool) = &robot.tool {
         let at = placed(tool);
-        lines.push(format!(
-            "The last frame of poses and Jacobians is the tool, in the last link's at {at}."
-        ));
+        let what = "The last frame of poses and Jacobians is the tool, in the last link's";
+        lines.push(format!("{what} at {at}."));
     }
     if !robot.notes.is_empty() {
-        say(&mut lines, ["", "Notes of the robot file:", ""]);
+        lines.extend(paragraph(["", "Notes of the robot file:", ""]));
         let notes = robot.notes.iter();
         lines.extend(notes.map(|note| format!("- {}", sentence(note))));
     }
-    let branches = robot.is_tree();
-    let heads = match branches {
+    let heads = match robot.is_tree() {
         true => [
             "| joint | kind | carried by | xyz | rpy | axis | mass |",
             "|---|---|---|---|---|---|---|",
@@ -133,15 +125,13 @@ pub(super) fn header(
             "|---|---|---|---|---|---|---|",
         ],
     };
-    say(&mut lines, [""]);
-    say(&mut lines, heads);
+    lines.extend(paragraph([""]));
+    lines.extend(paragraph(heads));
     if let Some(base) = &robot.floating {
         let named = |name: &String| format!(" {}", escaped(name));
         let name = base.name.as_ref().map(named).unwrap_or_default();
-        lines.push(format!(
-            "| base{name} | floating | | | | | {} |",
-            decimal(&base.mass)
-        ));
+        let mass = decimal(&base.mass);
+        lines.push(format!("| base{name} | floating | | | | | {mass} |"));
     }
     for (row, joint) in robot.rows().into_iter().enumerate() {
         let mut followers = robot.followers.iter();
@@ -171,18 +161,13 @@ pub(super) fn header(
                 None => "the base".to_owned(),
                 Some(carrier) => link_name(robot, carrier),
             };
+            let Placement { xyz, rpy } = &place.placement;
             let decimals = |list: &[Rational; 3]| list.each_ref().map(decimal).join(", ");
-            let rpy = place
-                .placement
-                .rpy
-                .each_ref()
-                .map(Angle::to_string)
-                .join(", ");
-            let (xyz, axis) = (decimals(&place.placement.xyz), decimals(&place.axis));
+            let rpy = rpy.each_ref().map(Angle::to_string).join(", ");
+            let (xyz, axis) = (decimals(xyz), decimals(&place.axis));
             let mass = decimal(&joint.mass);
-            lines.push(format!(
-                "| {label} | {kind} | {carrier} | {xyz} | {rpy} | {axis} | {mass} |"
-            ));
+            let cells = format!("{carrier} | {xyz} | {rpy} | {axis} | {mass}");
+            lines.push(format!("| {label} | {kind} | {cells} |"));
             continue;
         }
         let (d, theta) = (decimal(&joint.d), joint.theta.to_string());
@@ -191,24 +176,22 @@ pub(super) fn header(
             JointKind::Prismatic => (plus(d), theta),
         };
         let (alpha, a, mass) = (&joint.alpha, decimal(&joint.a), decimal(&joint.mass));
-        lines.push(format!(
-            "| {label} | {kind} | {alpha} | {a} | {d} | {theta} | {mass} |"
-        ));
+        let cells = format!("{alpha} | {a} | {d} | {theta} | {mass}");
+        lines.push(format!("| {label} | {kind} | {cells} |"));
     }
     if !robot.followers.is_empty() {
         let why =
             "Of joints that follow others there are no entries; parameters count links by rows.";
-        say(&mut lines, ["", why]);
+        lines.extend(paragraph(["", why]));
     }
     let rows = (1..).zip(robot.rows());
-    let tilted: Vec<String> = rows
-        .filter(|(_, joint)| !joint.beta.is_zero())
-        .map(|(number, joint)| format!("{number} by {}", joint.beta))
-        .collect();
-    if !tilted.is_empty() {
-        let tilted = tilted.join(", joint ");
+    let tilted = rows.filter(|(_, joint)| !joint.beta.is_zero());
+    let words = tilted.map(|(number, joint)| format!("{number} by {}", joint.beta));
+    let turns: Vec<String> = words.collect();
+    if !turns.is_empty() {
+        let tilted = turns.join(", joint ");
         let why = format!("After its twist each of these turns about y: joint {tilted}.");
-        say(&mut lines, ["", &why]);
+        lines.extend(paragraph(["", &why]));
     }
     if let Some(scene) = setup.scene() {
         lines.push(String::new());
@@ -229,12 +212,11 @@ pub(super) fn header(
             "Each function lists what was then left out of it, within the scene's tolerance.",
         ],
     };
-    say(&mut lines, proved);
-    let drawn = [
+    lines.extend(paragraph(proved));
+    lines.extend(paragraph([
         "The points follow from the SHA-256 of robot, scene and program. Each function says how",
         "improbable it is that a wrong one passes.",
-    ];
-    say(&mut lines, drawn);
+    ]));
     lines
 }
 
@@ -248,12 +230,10 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
         ("sqrt", false, |counts| counts.sqrt),
         ("sincos", true, |counts| counts.sincos),
     ];
-    let has =
-        |of: fn(&Counts) -> usize| functions.iter().any(|function| of(&function.counts()) > 0);
-    let shown: Vec<&Column> = columns
-        .iter()
-        .filter(|(_, always, of)| *always || has(*of))
-        .collect();
+    let is_shown = |(_, always, of): &&Column| {
+        *always || functions.iter().any(|function| of(&function.counts()) > 0)
+    };
+    let shown: Vec<&Column> = columns.iter().filter(is_shown).collect();
     let titles = shown.iter().map(|(title, ..)| format!(" {title} |"));
     let mut lines = vec![
         format!("| function |{} from |", titles.collect::<String>()),
@@ -274,28 +254,23 @@ pub(super) fn function_doc(
     scalar: ScalarType,
 ) -> Vec<String> {
     let setup = job.setup;
+    let is_changed = generated.admitted.is_some();
+    let before = ["", ", before anything was left out"][usize::from(is_changed)];
     let mut lines = vec![
         generated.function.summary().to_owned(),
         String::new(),
         format!("{}.", generated.counts_in(scalar)),
-        match &generated.admitted {
-            None => format!("Checked: {}.", generated.proof),
-            Some(_) => format!(
-                "Checked, before anything was left out: {}.",
-                generated.proof
-            ),
-        },
+        format!("Checked{before}: {}.", generated.proof),
     ];
     lines.extend(said::lanes(&generated.program));
     lines.extend(said::fused(&generated.program));
     if generated.program.divides() {
-        let why = [
+        lines.extend(paragraph([
             "",
             "Divides by the pivots of D, which are positive wherever D is positive definite. Where a",
             "joint moves no inertia a pivot is zero, and results are infinite or NaN. So rounding is measured",
             "at states by `dalembert certify`, not shown: it has no bound over the box.",
-        ];
-        say(&mut lines, why);
+        ]));
     }
     lines.extend(said::friction(generated, setup));
     lines.extend(arguments::layout(generated.function, setup));
@@ -318,11 +293,9 @@ fn link_name(robot: &Robot, row: usize) -> String {
 }
 
 fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
-    let mut lines = vec![format!(
-        "Scene `{}` {}. Its functions are the full model's at:",
-        scene.name,
-        scene.short_hash()
-    )];
+    let (name, hash) = (&scene.name, scene.short_hash());
+    let head = format!("Scene `{name}` {hash}. Its functions are the full model's at:");
+    let mut lines = vec![head];
     if scene.lock_base {
         lines.push("- the base at rest;".to_owned());
     }
@@ -340,9 +313,8 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     }
     if let Some(gravity) = &scene.gravity {
         let gravity = list(gravity.iter().map(decimal));
-        lines.push(format!(
-            "- gravity ({gravity}) m/s², instead of the robot's;"
-        ));
+        let text = format!("- gravity ({gravity}) m/s², instead of the robot's;");
+        lines.push(text);
     }
     if let Some(payload) = &scene.payload {
         let mass = decimal(&payload.mass);
@@ -352,16 +324,14 @@ fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
             Parent::Row(row) => link_name(robot, row),
         };
         let link = (scene.payload_link).map_or_else(|| "the last link".to_owned(), named);
-        lines.push(format!(
-            "- a payload of {mass} kg at ({com}) m in the frame of {link};"
-        ));
+        let body = format!("a payload of {mass} kg at ({com}) m");
+        lines.push(format!("- {body} in the frame of {link};"));
     }
     let rows = scene.rows(robot.joints.len());
     let rows = list(rows.iter().map(|row| (row + 1).to_string()));
-    lines.push(format!(
-        "- results over the joints {rows}: every index of a result counts these."
-    ));
+    let what = "every index of a result counts these.";
+    lines.push(format!("- results over the joints {rows}: {what}"));
     let read = "Arguments have an entry for every joint; those of locked joints are not read.";
-    say(&mut lines, ["", read]);
+    lines.extend(paragraph(["", read]));
     lines
 }

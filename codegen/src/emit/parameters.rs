@@ -2,8 +2,9 @@
 //! file's, and the values that they have.
 
 use dalembert_model::number::Exact;
+use dalembert_model::robot::Joint;
 
-use super::say;
+use super::paragraph;
 use crate::function::{Function, RegressorColumns};
 use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};
@@ -11,16 +12,12 @@ use crate::setup::Setup;
 use crate::setup::base::{BaseParameters, Parameter};
 
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
-    let mut lines = match function.columns() {
-        RegressorColumns::None => return Vec::new(),
-        RegressorColumns::Links | RegressorColumns::Base(_) => vec![String::new()],
-    };
-    let is_placed = setup
-        .robot()
-        .rows()
-        .iter()
-        .any(|joint| joint.frame.is_some());
-    let whose = match is_placed {
+    if function.columns() == RegressorColumns::None {
+        return Vec::new();
+    }
+    let mut lines = vec![String::new()];
+    let is_placed = |joint: &&Joint| joint.frame.is_some();
+    let whose = match setup.robot().rows().iter().any(is_placed) {
         false => "its DH frame.",
         true => {
             "its own frame,\nas `link_poses` has it: that of the robot file, a URDF or an MJCF. What is \
@@ -39,44 +36,37 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
             lines.push(format!(
                 "{sum} = Y π, and `{constant}` is this robot's π. No fewer columns give all"
             ));
-            let head = [
+            lines.extend(paragraph([
                 "torques; that these do was proved. Each is a combination of parameters:",
                 "",
                 "| column | base parameter |",
                 "|---|---|",
-            ];
-            say(&mut lines, head);
+            ]));
             for (index, name) in base.names().iter().enumerate() {
                 lines.push(format!("| {} | {name} |", index + 1));
             }
             lines.push(String::new());
             lines.extend(named.lines().map(str::to_owned));
             if base.combinations.iter().flatten().any(is_drive) {
-                let drives = [
+                lines.extend(paragraph([
                     "armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have",
                     "columns where the robot file has them.",
-                ];
-                say(&mut lines, drives);
+                ]));
             }
         }
         None => {
             let columns =
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of";
-            let columns = match setup.robot().floating {
+            lines.push(match setup.robot().floating {
                 None => columns.to_owned(),
                 // Of the base, then as of any other robot.
                 Some(_) => columns.replace('1', "0"),
-            };
-            lines.push(columns);
+            });
             let friction = match setup.has_coulomb() {
                 true => "friction, viscous and Coulomb,",
                 false => "viscous friction",
             };
-            let next = if setup.robot().floating.is_some() {
-                1
-            } else {
-                2
-            };
+            let next = 2 - usize::from(setup.robot().floating.is_some());
             lines.push(format!("link {next}. Armature and {friction} have none."));
             lines.extend(named.lines().map(str::to_owned));
         }
@@ -88,10 +78,10 @@ pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) ->
     let Some((name, values)) = values(function, setup, scalar) else {
         return String::new();
     };
+    let count = values.len();
     let mut text = format!(
         "/// π of this robot: the values of the base parameters, a column of [`{function}`] each.\n\
-         pub const {name}: [{scalar}; {}] = [\n",
-        values.len()
+         pub const {name}: [{scalar}; {count}] = [\n"
     );
     for value in &values {
         text += &format!("    {},\n", value.text(scalar));

@@ -1,10 +1,11 @@
 //! The documentation of a function about its sines, Coulomb friction and fused products:
 //! nothing where there are none.
 
-use super::{GeneratedFunction, say};
+use super::{GeneratedFunction, paragraph};
 use crate::figures::{bound_of, decimal};
 use crate::function::Argument;
-use crate::program::{Counts, Program, ScalarType};
+use crate::language::list;
+use crate::program::{Counts, Loop, Program, ScalarType};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
 
@@ -18,7 +19,7 @@ pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
         format!("Sines and cosines are polynomials, {mul} mul, {add} add, with proved errors:");
     let mut lines = Vec::new();
     let head = "| angle | from | to | error | by |";
-    say(&mut lines, ["", &what, "", head, "|---|---|---|---|---|"]);
+    lines.extend(paragraph(["", &what, "", head, "|---|---|---|---|---|"]));
     for sine in sines {
         lines.push(format!(
             "| q{} | {:?} | {:?} | {} | {} |",
@@ -29,12 +30,11 @@ pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
             sine.form
         ));
     }
-    let outside = [
+    lines.extend(paragraph([
         "",
         "Outside these ranges they are no sines: the error grows with every step away. Ask",
         "[`in_box`] whether a state is inside.",
-    ];
-    say(&mut lines, outside);
+    ]));
     lines
 }
 
@@ -48,15 +48,14 @@ pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<Stri
     let speed = if wished { "v_i" } else { "q̇_i" };
     let friction =
         format!("friction is F_i {speed}/√(q̇_i² + w_i²). In the proof each r_i is a variable.");
-    let head = [
+    let mut lines = Vec::from(paragraph([
         "",
         "With Coulomb friction: b_i stands for b_i + F_i r_i, r_i = 1/√(q̇_i² + w_i²), so that the",
         &friction,
         "",
         "| joint | F | w |",
         "|---|---|---|",
-    ];
-    let mut lines = head.map(String::from).to_vec();
+    ]));
     for speed in &program.speeds {
         let Some(index) = setup.robot().joint_of(speed.coordinate) else {
             continue;
@@ -70,34 +69,27 @@ pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<Stri
 
 /// Says what the loops of the text are.
 pub(super) fn lanes(program: &Program) -> Vec<String> {
-    let loops = program.loops.iter();
-    let shapes: Vec<String> = loops
-        .map(|block| format!("{} lanes of {} operations", block.lanes, block.rows))
-        .collect();
-    if shapes.is_empty() {
+    if program.loops.is_empty() {
         return Vec::new();
     }
-    let lines = [
-        String::new(),
-        format!(
-            "Limbs of one structure are lanes of loops: {}. A compiler",
-            shapes.join(", ")
-        ),
-        "makes vectors of them, with the bits of their operations one after the other.".to_owned(),
-    ];
-    lines.to_vec()
+    let shape = |block: &Loop| format!("{} lanes of {} operations", block.lanes, block.rows);
+    let shapes = list(program.loops.iter().map(shape));
+    Vec::from(paragraph([
+        "",
+        &format!("Limbs of one structure are lanes of loops: {shapes}. A compiler"),
+        "makes vectors of them, with the bits of their operations one after the other.",
+    ]))
 }
 
 pub(super) fn fused(program: &Program) -> Vec<String> {
     if !program.fuses() {
         return Vec::new();
     }
-    let lines = [
+    Vec::from(paragraph([
         "",
         "A product and the sum that alone reads it are one operation, fma, rounded once; the t of",
         "that product is left out. `mul_add` needs `std`, and a build for a processor that has it",
         "(`-C target-cpu=native`, or `-C target-feature=+fma`): any other calls a function for each,",
         "slower by far than a product and a sum, with the same bits.",
-    ];
-    lines.map(String::from).to_vec()
+    ]))
 }

@@ -60,11 +60,8 @@ impl StateBox {
              pub struct StateBox {\n",
         );
         for (argument, column) in &self.columns {
-            let (what, n) = (argument.meaning(), column.len());
-            *text += &format!(
-                "    /// {what}\n    pub {}: [[{scalar}; 2]; {n}],\n",
-                argument.name()
-            );
+            let (name, what, n) = (argument.name(), argument.meaning(), column.len());
+            *text += &format!("    /// {what}\n    pub {name}: [[{scalar}; 2]; {n}],\n");
         }
         text.push_str(
             "}\n\n\

@@ -3,7 +3,7 @@
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
-use super::say;
+use super::paragraph;
 use crate::figures::{at_least, bound as up, inside};
 use crate::function::{Argument, ErrorScale, Quantity};
 use crate::program::Program;
@@ -13,18 +13,14 @@ use crate::tolerance::input_box::payloads;
 use crate::tolerance::variant::{Variant, VariantSet};
 
 pub(super) fn describe(admitted: &VariantSet, variant: &Variant, setup: &Setup) -> Vec<String> {
-    let mut lines = [
+    let mut lines = Vec::from(paragraph([
         "",
         "Shown: inside the box, |this code - the full model| ≤ E·T. The last two columns split E",
         "into what differs in real numbers and rounding. [`in_box`] says whether a state is inside.",
-    ]
-    .map(String::from)
-    .to_vec();
+    ]));
     let quantities = variant.emitted.function.quantities();
     lines.extend(sentences(variant.relative_to, quantities));
-    lines.push(String::new());
     lines.extend(bounds(variant, setup));
-    lines.push(String::new());
     lines.extend(states(variant, setup));
     lines.push(String::new());
     lines.push(match admitted.is_other() {
@@ -42,16 +38,13 @@ pub(super) fn describe(admitted: &VariantSet, variant: &Variant, setup: &Setup) 
 
 fn bounds(variant: &Variant, setup: &Setup) -> Vec<String> {
     let units = units(&variant.emitted, setup.robot());
-    let mut lines = vec![
-        "| output | T | E | real | rounding |".to_owned(),
-        "|---|---|---|---|---|".to_owned(),
-    ];
+    let head = "| output | T | E | real | rounding |";
+    let mut lines = Vec::from(paragraph(["", head, "|---|---|---|---|---|"]));
     let bounds = variant.bounds.iter().zip(&variant.scales);
     for (index, ((bound, scale), unit)) in bounds.zip(units).enumerate() {
-        let errors = [bound.total(), bound.real, bound.rounding]
-            .map(up)
-            .join(" | ");
+        let [total, real, rounding] = [bound.total(), bound.real, bound.rounding].map(up);
         let (entry, scale) = (variant.emitted.entry(index), at_least(*scale));
+        let errors = format!("{total} | {real} | {rounding}");
         lines.push(format!("| {entry} | {scale} {unit} | {errors} |"));
     }
     lines
@@ -72,13 +65,11 @@ pub(super) fn held(
 fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
     let limits = &variant.limits;
     let arguments = variant.emitted.arguments.iter();
-    let columns: Vec<Argument> = arguments
-        .filter(|argument| Argument::STATE.contains(argument))
-        .copied()
-        .collect();
-    let columns = &columns;
+    let state = arguments.filter(|argument| Argument::STATE.contains(argument));
+    let columns: &Vec<Argument> = &state.copied().collect();
     let names: Vec<&str> = columns.iter().map(|argument| argument.symbol()).collect();
     let mut lines = vec![
+        String::new(),
         format!("| joint | {} |", names.join(" | ")),
         format!("|{}", "---|".repeat(columns.len() + 1)),
     ];
@@ -115,56 +106,41 @@ fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
     }
     if variant.load.is_some() {
         lines.push(String::new());
-        lines.push(payloads_of(setup));
+        let is_default = setup.robot().payload_range.is_none();
+        let default = ["", " (no range is given)"][usize::from(is_default)];
+        lines.push(format!("Payloads: {}{default}.", payloads(setup)));
     }
     lines
 }
 
-fn payloads_of(setup: &Setup) -> String {
-    let is_default = setup.robot().payload_range.is_none();
-    let default = ["", " (no range is given)"][usize::from(is_default)];
-    format!("Payloads: {}{default}.", payloads(setup))
-}
-
 /// Says what T is: a sentence for each kind of output.
 fn sentences(relative_to: Scale, quantities: &[Quantity]) -> Vec<String> {
-    match relative_to {
-        Scale::Range => [
+    if relative_to == Scale::Range {
+        return Vec::from(paragraph([
             "T of an output is a size that it attains in the box, at its largest there or just",
             "below.",
-        ]
-        .map(String::from)
-        .to_vec(),
-        Scale::Actuator => actuators(quantities),
+        ]));
     }
-}
-
-fn actuators(quantities: &[Quantity]) -> Vec<String> {
     let has = |scale| quantities.iter().any(|q| q.facts().scale == scale);
     let is_load = |q: &&Quantity| q.facts().scale == ErrorScale::Load;
-    let loads: Vec<&str> = quantities
-        .iter()
-        .filter(is_load)
-        .map(|quantity| quantity.symbol())
-        .collect();
+    let loads = quantities.iter().filter(is_load);
+    let symbols: Vec<&str> = loads.map(|quantity| quantity.symbol()).collect();
     let mut lines = Vec::new();
-    if !loads.is_empty() {
+    if !symbols.is_empty() {
         let what = "is T_i, the torque limit of the joint's actuator.";
-        lines.push(format!("T of {} {what}", loads.join(" and of ")));
+        lines.push(format!("T of {} {what}", symbols.join(" and of ")));
     }
     if has(ErrorScale::Inertia) {
-        let inertia = [
+        lines.extend(paragraph([
             "T of D_ik is min(T_i/q̈_k, T_k/q̈_i): the inertia that by itself takes the torque",
             "limit T_i of an actuator at the largest acceleration q̈_k of the box.",
-        ];
-        say(&mut lines, inertia);
+        ]));
     }
     if has(ErrorScale::Coefficient) {
-        let coefficient = [
+        lines.extend(paragraph([
             "T of h_ikm is T_i/(q̇_k q̇_m): the coefficient that by itself takes the torque limit",
             "T_i at the largest velocities of the box.",
-        ];
-        say(&mut lines, coefficient);
+        ]));
     }
     lines
 }

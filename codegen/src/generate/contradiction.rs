@@ -36,10 +36,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Runs a function without a tolerance at random states.
-///
-/// # Errors
-/// A result that differs from the robot's own recursion.
+/// Runs a function without a tolerance at random states, against the robot's own recursion.
 pub fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), GenerateError> {
     // Limits may reach beyond f32, and the reference is of finite numbers.
     let states = reference.setup().states(STATES, SEED);
@@ -79,14 +76,9 @@ fn tolerated(
         let drawn = claim.draw(loading.as_ref(), &mut random);
         let state = held(&drawn, scalar, &claim.limits);
         let truth = reference.run(generated.function, &state);
-        let results = emitted
-            .run(&state)
-            .into_iter()
-            .chain(std::iter::repeat(f64::NAN));
-        let errors = truth
-            .iter()
-            .zip(results)
-            .map(|(true_value, x)| true_value.error(x));
+        let results = emitted.run(&state).into_iter();
+        let pairs = truth.iter().zip(results.chain(std::iter::repeat(f64::NAN)));
+        let errors = pairs.map(|(true_value, x)| true_value.error(x));
         let mut both = errors.zip(claim.errors()).enumerate();
         if let Some((index, (error, bound))) = both.find(|(_, (error, bound))| error > bound) {
             let why = format!("its bound is {bound:.3e}");

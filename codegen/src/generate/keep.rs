@@ -19,8 +19,7 @@ use crate::tolerance::claim::{document, tolerated};
 #[derive(Clone, Debug)]
 pub struct PlanUpdate {
     pub plan: Plan,
-    /// Functions for which the plan keeps its program: a search that was ended early had
-    /// found none that is cheaper.
+    /// Functions whose program the plan keeps: a search that was ended early has no cheaper one.
     pub functions: Vec<(Function, ScalarType)>,
 }
 
@@ -38,10 +37,10 @@ pub fn keep(
         input,
         entries: Vec::new(),
     });
-    let mut plan_functions = Vec::new();
-    let functions = generated.functions.iter();
+    let mut functions = Vec::new();
+    let programs = generated.functions.iter();
     // A load is its definition: nobody searches for that.
-    for function in functions.filter(|generated| generated.function != Function::Load) {
+    for function in programs.filter(|generated| generated.function != Function::Load) {
         let admitted = function.admitted.as_ref();
         // The proved program: what a tolerance was applied to.
         let program = function.found.as_ref().unwrap_or(&function.program);
@@ -65,28 +64,21 @@ pub fn keep(
                     && price(&emitted(other).counts()) <= price(&emitted(&entry).counts())
             };
             if generated.ended && other.as_ref().is_some_and(as_good) {
-                plan_functions.push((name, scalar));
+                functions.push((name, scalar));
             } else if other.as_ref() != Some(&entry) {
                 // A bundle may be there by another name.
                 plan.insert(entry);
             }
         }
     }
-    PlanUpdate {
-        plan,
-        functions: plan_functions,
-    }
+    PlanUpdate { plan, functions }
 }
 
 fn emitted(entry: &Entry) -> &Program {
-    let edited = entry.edited.as_ref();
-    edited.unwrap_or(&entry.program)
+    entry.edited.as_ref().unwrap_or(&entry.program)
 }
 
 /// Returns the claim about the functions that were generated for the robot of a file.
-///
-/// # Errors
-/// As of [`Request::prepare`].
 pub fn claim(
     robot: &Robot,
     source: &str,

@@ -12,31 +12,25 @@ use crate::seeds::Start;
 /// Returns why limbs of a request can be no lanes, and the fix; none if they can.
 pub(super) fn refusal(job: &Job<'_>) -> Option<[&'static str; 2]> {
     let request = job.request;
-    if request.language == Language::Cuda {
-        return Some([
+    Some(match request.language {
+        Language::Cuda => [
             "on a GPU the vectors are over states, not limbs",
             "leave `limbs` out, or generate Rust or C",
-        ]);
-    }
-    if request.batch {
-        return Some([
+        ],
+        _ if request.batch => [
             "a batch has vectors over states, not limbs",
             "leave `batch` or `limbs` out, or generate two files",
-        ]);
-    }
-    if job.tolerance().is_some() {
-        return Some([
+        ],
+        _ if job.tolerance().is_some() => [
             "what a tolerance leaves out differs from limb to limb",
             "leave `limbs` out, or take a scene without a tolerance",
-        ]);
-    }
-    if request.start != Start::Auto {
-        return Some([
+        ],
+        _ if request.start != Start::Auto => [
             "a formulation alone is used unchanged, without lanes",
             "leave `formulation` or `limbs` out",
-        ]);
-    }
-    None
+        ],
+        _ => return None,
+    })
 }
 
 pub(super) fn may_be_lanes(job: &Job<'_>) -> bool {

@@ -28,8 +28,7 @@ pub(super) fn check(robot: &Robot, request: &Request, functions: &[Function]) ->
 }
 
 /// The short name is the beginning of the module's own with four digits of its hash, which tell
-/// robots apart that begin alike. The request stays as it is where no such name is short enough:
-/// [`check`] refuses that.
+/// robots apart that begin alike. Where none is short enough, [`check`] refuses the request.
 pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a, Request> {
     let misnamed = |name: &str| header::misnamed(name, &request.functions, request).is_some();
     let name = request.module_name(robot);

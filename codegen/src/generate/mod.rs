@@ -1,22 +1,18 @@
 //! The one function that macro, build script and command call.
 
-mod again;
 pub(crate) mod contradiction;
 pub(crate) mod keep;
 mod lanes;
 pub(crate) mod language;
 pub(crate) mod parameters;
 mod range;
-#[doc(hidden)]
 pub(crate) mod search;
 mod sines;
-#[doc(hidden)]
 pub(crate) mod tolerate;
 
 use dalembert_checker::Fault;
 use dalembert_checker::read::Text;
-use dalembert_model::diagnostic::Diagnostic;
-use dalembert_model::read::closest;
+use dalembert_model::diagnostic::{Diagnostic, closest};
 use dalembert_model::robot::{Frame, HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
 
@@ -28,7 +24,7 @@ use crate::language::{Language, columns};
 use crate::limbs::LimbLayout;
 use crate::parallel;
 use crate::program::{Code, Program, ScalarType};
-use crate::search::Effort;
+use crate::search::{Effort, price};
 use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, Setup, input_hash};
 use crate::task::{GenerateError, Job, Miss, Prefer, Request};
@@ -37,8 +33,8 @@ use crate::verify::exact::prove;
 use crate::verify::measure::RunnableCode;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
-pub use again::generate_anew;
-use range::{check_constants, leave_out_single, vanishing, warn_of_overflow};
+use crate::watch::Watch;
+use range::{check_constants, leave_out_single, overflow, vanishing};
 use search::{found_program, replay};
 use tolerate::tolerate;
 
@@ -71,12 +67,11 @@ impl GeneratedCode {
             Language::C | Language::Cuda => Comment::Block,
         };
         let stamped = |(index, text): (usize, &String)| {
-            let scalars = match request.language {
+            let mut named = request.clone();
+            named.scalars = match request.language {
                 Language::Rust => vec![self.scalars[index]],
                 Language::C | Language::Cuda => self.scalars.clone(),
             };
-            let mut named = request.clone();
-            named.scalars = scalars;
             let mut asked = named.asked();
             if self.without_single.is_some() {
                 // f64 alone was not asked for. `set` cannot fail: `scalar` is an option.
@@ -111,8 +106,7 @@ impl GeneratedCode {
 
 pub(crate) type Outcome<T> = Result<T, GenerateError>;
 
-/// The most numbers a function may return: beyond, the code that returns
-/// them alone takes a compiler minutes.
+/// The most numbers of a function: beyond, a compiler takes minutes for what returns them alone.
 const MAX_OUTPUTS: usize = 20_000;
 
 /// Generates the requested functions for `robot`: searches for programs, proves each equal to
@@ -152,13 +146,6 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
         setup,
         request,
     };
-    if job.tolerance().is_some() {
-        let mut functions = request.functions.iter();
-        if let Some(&function) = functions.find(|&&f| depends_on_coulomb(setup.task(f))) {
-            let why = Diagnostic::error(FRICTION_IS_UNBOUNDED);
-            return Err(GenerateError::Tolerance(function, Miss::Refused, why));
-        }
-    }
     parameters::check(job)?;
     if let (LimbLayout::Lanes, Some([why, help])) = (request.limbs, lanes::refusal(job)) {
         let message = format!("`limbs: lanes`: {why}");
@@ -167,7 +154,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
     let (mut functions, mut scalars) = functions(job)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
-        again::no_dearer_than_quick(job, &mut functions, &scalars);
+        no_dearer_than_quick(job, &mut functions, &scalars);
     }
     let mut warnings = Vec::from_iter(language::renamed(robot, asked, request));
     let without_single = leave_out_single(request, &functions, &mut scalars);
@@ -179,7 +166,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
             let subnormal = check_constants(program, scalar);
             let fail = |why| GenerateError::Constant(generated.function, why);
             warnings.extend(subnormal.map_err(fail)?);
-            warn_of_overflow(setup.robot(), program, scalar, &mut warnings);
+            warnings.extend(overflow(setup.robot(), program, scalar));
         }
     }
     let in_scalar = |&scalar: &ScalarType| {
@@ -188,32 +175,23 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
     };
     let codes: Vec<(ScalarType, Vec<Code>)> = scalars.iter().map(in_scalar).collect();
     let texts = match request.language {
-        Language::Rust => {
-            let module_text = |(scalar, codes): &(ScalarType, Vec<Code>)| {
-                module::write(job, &functions, codes, *scalar)
-            };
-            codes.iter().map(module_text).collect()
-        }
+        Language::Rust => (codes.iter())
+            .map(|(scalar, codes)| module::write(job, &functions, codes, *scalar))
+            .collect(),
         Language::C | Language::Cuda => {
             let note = without_single.as_deref();
             vec![header::write(job, &functions, &codes, note)]
         }
     };
     let mut emitted = Vec::new();
-    for (index, (_, codes)) in codes.iter().enumerate() {
-        // Headers have all scalars in one text.
-        let text = &texts[index.min(texts.len() - 1)];
+    // Headers have all scalars in one text.
+    for ((_, codes), text) in codes.iter().zip(texts.iter().cycle()) {
         let words = match request.language {
             Language::Rust => Text::rust(text),
             Language::C | Language::Cuda => Text::c(text),
         };
         for (generated, code) in functions.iter().zip(codes) {
-            let scalar = Some(code.scalar);
-            let fail = |error: &Fault| {
-                GenerateError::Defect(generated.function, scalar, error.to_string())
-            };
-            let words = words.as_ref().map_err(fail)?;
-            emitted.push(read_back(job, words, generated, code)?);
+            emitted.push(read_back(job, &words, generated, code)?);
         }
     }
     contradiction::check(setup, &functions, &emitted)?;
@@ -228,6 +206,26 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
     })
 }
 
+/// Generates as [`generate`] does; where the plan is of robot or scene before an edit, searches
+/// without it, and warns with the command that renews it. Messages call the robot file `shown`.
+pub fn generate_anew(robot: &Robot, request: &Request, shown: &str) -> Outcome<GeneratedCode> {
+    let what = match generate(robot, request) {
+        Err(GenerateError::Stale(what, _)) => what,
+        other => return other,
+    };
+    let mut without = request.clone();
+    without.plan = None;
+    let mut generated = generate(robot, &without)?;
+    let scene = request.scene.as_ref();
+    let scene = scene.map(|scene| format!("--scene {} ", scene.name));
+    generated.warnings.push(format!(
+        "the plan beside {shown} no longer fits {what}, which was edited since: a search took its \
+         place; `dalembert generate {shown} {}--effort thorough --save-plan` renews it",
+        scene.unwrap_or_default()
+    ));
+    Ok(generated)
+}
+
 fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     if request.functions.is_empty() || request.scalars.is_empty() {
         return Err(GenerateError::empty());
@@ -236,11 +234,9 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     for (index, &function) in functions.iter().enumerate() {
         let mut others = functions[..index].iter();
         if let Some(&other) = others.find(|other| function.is_namesake(**other)) {
-            let message = format!(
-                "`{}` and `{}` would get the same name in the generated module",
-                other.text(),
-                function.text()
-            );
+            let (other, text) = (other.text(), function.text());
+            let message =
+                format!("`{other}` and `{text}` would get the same name in the generated module");
             let help = "give one of them another name: NAME = OUTPUT + OUTPUT";
             return Err(GenerateError::refused(function, message, help));
         }
@@ -264,33 +260,34 @@ fn check(robot: &Robot, setup: &Setup, request: &Request) -> Outcome<()> {
     {
         return Err(GenerateError::stale_plan(&plan.robot));
     }
-    let scene = request.scene.as_ref();
-    let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
-    let refusal = |&function: &Function| {
+    if setup.scene().is_none_or(|scene| scene.tolerance.is_none()) {
+        return Ok(());
+    }
+    let reason = |&function: &Function| {
         let why = match robot.followers.is_empty() {
             false => Diagnostic::error(FOLLOWERS_ARE_UNBOUNDED),
             true => unbounded(function, setup.robot().floating.is_some())?,
         };
         Some((function, why))
     };
-    let refused = request.functions.iter().find_map(refusal);
-    let Some((function, why)) = refused.filter(|_| has_tolerance) else {
-        return Ok(());
-    };
-    Err(GenerateError::Tolerance(function, Miss::Refused, why))
+    let rubs = |function: &Function| depends_on_coulomb(setup.task(*function));
+    let friction = |function: Function| (function, Diagnostic::error(FRICTION_IS_UNBOUNDED));
+    let functions = request.functions.iter();
+    let refused = (functions.clone().find_map(reason))
+        .or_else(|| functions.copied().find(rubs).map(friction));
+    match refused {
+        Some((function, why)) => Err(GenerateError::Tolerance(function, Miss::Refused, why)),
+        None => Ok(()),
+    }
 }
 
 fn check_frames(robot: &Robot, setup: &Setup, function: Function) -> Outcome<()> {
-    let scene = setup.scene().filter(|scene| scene.lock_base);
-    let of_base: Vec<&str> = robot
-        .frames
-        .iter()
-        .filter(|frame| frame.row.is_none())
-        .map(|frame| frame.name.as_str())
-        .collect();
-    let frames = function.frames();
-    if let Some(scene) = scene
-        && let Some(frame) = frames.iter().find(|frame| of_base.contains(frame))
+    let is_of_base = |name: &&str| {
+        let mut frames = robot.frames.iter();
+        frames.any(|frame| frame.row.is_none() && frame.name == *name)
+    };
+    if let Some(scene) = setup.scene().filter(|scene| scene.lock_base)
+        && let Some(frame) = function.frames().into_iter().find(is_of_base)
     {
         let text = function.text();
         let message = format!("`{text}`: the frame `{frame}` is on the base, which does not move");
@@ -300,15 +297,9 @@ fn check_frames(robot: &Robot, setup: &Setup, function: Function) -> Outcome<()>
     let robot = setup.robot();
     // Frames at the ends of limbs are most often meant.
     let tips = robot.tips();
-    let (ends, others): (Vec<&Frame>, Vec<&Frame>) = robot
-        .frames
-        .iter()
-        .partition(|frame| frame.row.is_some_and(|row| tips.contains(&row)));
-    let names: Vec<&str> = [ends, others]
-        .concat()
-        .iter()
-        .map(|frame| frame.name.as_str())
-        .collect();
+    let mut frames: Vec<&Frame> = robot.frames.iter().collect();
+    frames.sort_by_key(|frame| frame.row.is_none_or(|row| !tips.contains(&row)));
+    let names: Vec<&str> = frames.iter().map(|frame| frame.name.as_str()).collect();
     if robot.is_tree() && function.is_of_hand() {
         return Err(no_hand(robot, function, &names));
     }
@@ -340,23 +331,20 @@ fn no_hand(robot: &Robot, function: Function, names: &[&str]) -> GenerateError {
         }
     };
     let name = text.split('@').next().unwrap_or_default();
+    let frames = names.join("`, `");
     let fix = match names {
         [] => format!(
             "name an end by a [[frame]] table in the robot file (`name`, `link`, `xyz`, `rpy`), and ask for \
              `{name}@NAME`"
         ),
-        [first, ..] => format!(
-            "ask for `{name}@{first}`; frames are `{}`",
-            names.join("`, `")
-        ),
+        [first, ..] => format!("ask for `{name}@{first}`; frames are `{frames}`"),
     };
     GenerateError::refused(function, message, fix)
 }
 
 type FunctionsInScalars = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
-/// With a tolerance, the cheapest exact programs are the start; those that cost fewer digits have
-/// their turn if it refuses these.
+/// A tolerance starts from the cheapest exact programs, then from those that cost fewer digits.
 fn functions(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
     let request = job.request;
     if job.tolerance().is_none() || request.prefer != Prefer::Accuracy {
@@ -367,6 +355,29 @@ fn functions(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
     match all_proved(&job.with(&cheapest)) {
         Err(GenerateError::Tolerance(_, Miss::Above, _)) => all_proved(job),
         outcome => outcome,
+    }
+}
+
+/// Keeps the quick search's function where it is cheaper: an early end is never worse than that.
+fn no_dearer_than_quick(
+    job: &Job<'_>,
+    generated: &mut [GeneratedFunction],
+    scalars: &[ScalarType],
+) {
+    let quick_request = Request {
+        effort: Effort::Quick,
+        watch: Watch::default(),
+        ..job.request.clone()
+    };
+    // Its bounds are coarser: it may have needed a wider scalar.
+    if let Ok((quick, theirs)) = functions(&job.with(&quick_request))
+        && theirs == scalars
+    {
+        for (function, quick) in generated.iter_mut().zip(quick) {
+            if price(&quick.program.counts()) < price(&function.program.counts()) {
+                *function = quick;
+            }
+        }
     }
 }
 
@@ -382,14 +393,11 @@ fn all_proved(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
     let mut functions = outcome?;
-    let has_lanes = functions
-        .iter()
-        .any(|function| !function.program.loops.is_empty());
-    if job.request.limbs == LimbLayout::Lanes && !has_lanes {
+    let is_apart = |function: &GeneratedFunction| function.program.loops.is_empty();
+    if job.request.limbs == LimbLayout::Lanes && functions.iter().all(is_apart) {
         let message = "`limbs: lanes`: no function has lanes: torques, D, accelerations and slopes have, of limbs \
                        with the same joints whose numbers are zero in the same places";
-        let help = "leave `limbs` out";
-        return Err(GenerateError::refused(None, message, help));
+        return Err(GenerateError::refused(None, message, "leave `limbs` out"));
     }
     let scalars = tolerate(job, &mut functions)?;
     Ok((functions, scalars))
@@ -397,9 +405,8 @@ fn all_proved(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
 
 fn proved(job: &Job<'_>, function: Function) -> Outcome<GeneratedFunction> {
     let setup = job.setup;
-    let base = setup
-        .base_of(function)
-        .map_err(|why| GenerateError::Base(function, why.clone()))?;
+    let wrong = |why: &Diagnostic| GenerateError::Base(function, why.clone());
+    let base = setup.base_of(function).map_err(wrong)?;
     let outputs = function.outputs(setup.sizes(function));
     if outputs > MAX_OUTPUTS {
         let message = format!("`{function}` would return {outputs} numbers");
@@ -489,18 +496,19 @@ fn without_vain_steps(program: Program) -> Program {
 
 fn read_back(
     job: &Job<'_>,
-    text: &Text<'_>,
+    text: &Result<Text<'_>, Fault>,
     generated: &GeneratedFunction,
     code: &Code,
-) -> Result<RunnableCode, GenerateError> {
+) -> Outcome<RunnableCode> {
     let request = job.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
+    let words = text.as_ref().map_err(|error| fail(error.to_string()))?;
     let signature = Signature::of(&generated.program, scalar);
     let names = Names::new(&request.module_name(job.robot), request.language, scalar);
     let has_many = request.batch && columns::are_there(signature.function, request.language);
     let read =
-        Code::read(text, &signature, &names, has_many).map_err(|error| fail(error.to_string()))?;
+        Code::read(words, &signature, &names, has_many).map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(difference.to_string()));
     }

@@ -20,41 +20,30 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
     let scene = request.scene.as_ref();
     let floats = job.setup.robot().floating.is_some();
     if job.tolerance().is_some() {
-        let mut parameters = request.parameters.iter();
-        let is_other = |parameter: &&RuntimeParameter| {
-            parameter.given().is_some() && **parameter != RuntimeParameter::Payload
-        };
-        if let Some(other) = parameters.find(is_other) {
-            let message = format!(
-                "a tolerance bounds functions over a box, and `{}` has none",
-                other.name()
-            );
-            let help = "leave it out of the parameters, or the tolerance out of the scene";
-            return Err(refused(None, message, help));
+        for other in &request.parameters {
+            if other.given().is_some() && *other != RuntimeParameter::Payload {
+                let name = other.name();
+                let message =
+                    format!("a tolerance bounds functions over a box, and `{name}` has none");
+                let help = "leave it out of the parameters, or the tolerance out of the scene";
+                return Err(refused(None, message, help));
+            }
         }
-        let mut functions = request.functions.iter();
-        let taking = functions.find_map(|&function| {
-            let mut taken = request
-                .parameters
-                .iter()
-                .filter(|parameter| function.depends_on(**parameter));
-            let argument = taken.find_map(|parameter| {
-                Some(parameter.argument()).filter(|argument| !is_bounded(*argument, floats))
-            });
-            Some((function, argument?))
-        });
-        if let Some((function, argument)) = taking {
-            let why = without_range(argument);
-            return Err(refused(Some(function), format!("`{function}`: {why}"), ""));
+        for &function in &request.functions {
+            for parameter in &request.parameters {
+                let argument = parameter.argument();
+                if function.depends_on(*parameter) && !is_bounded(argument, floats) {
+                    let why = without_range(argument);
+                    return Err(refused(Some(function), format!("`{function}`: {why}"), ""));
+                }
+            }
         }
     }
     if let Some(scene) = scene.filter(|scene| scene.gravity.is_some())
         && setup.has(RuntimeParameter::Gravity)
     {
-        let message = format!(
-            "the scene `{}` sets gravity, so it cannot be an argument",
-            scene.name
-        );
+        let name = &scene.name;
+        let message = format!("the scene `{name}` sets gravity, so it cannot be an argument");
         let help = "leave it out of the scene or of the parameters";
         return Err(refused(None, message, help));
     }
@@ -66,17 +55,13 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
             "the formulation `{}` has no regrouped parameters, and bodies and drives are arguments by these",
             request.start.name()
         );
-        let help = "leave `formulation` out";
-        return Err(refused(None, message, help));
+        return Err(refused(None, message, "leave `formulation` out"));
     }
-    let mut of_bodies = [RuntimeParameter::Payload, RuntimeParameter::Bodies]
-        .into_iter()
-        .filter(|parameter| setup.has(*parameter));
-    let mut functions = request.functions.iter();
-    if let (Some(&function), Some(parameter)) = (
-        functions.find(|function| function.payload_dependence() == PayloadDependence::Full),
-        of_bodies.next(),
-    ) {
+    let is_full = |function: &&Function| function.payload_dependence() == PayloadDependence::Full;
+    let mut of_bodies = [RuntimeParameter::Payload, RuntimeParameter::Bodies].into_iter();
+    if let Some(&function) = request.functions.iter().find(is_full)
+        && let Some(parameter) = of_bodies.find(|parameter| setup.has(*parameter))
+    {
         let name = parameter.name();
         let message = format!(
             "`{function}` depends on numbers of bodies that have no effect on joint torques, and `load` \

@@ -39,10 +39,7 @@ pub(super) fn leave_out_single(
     let why =
         functions.find_map(|function| check_constants(&function.program, ScalarType::F32).err())?;
     scalars.retain(|scalar| *scalar == ScalarType::F64);
-    Some(format!(
-        "{}: only f64 is generated; choose other units for both",
-        why.message
-    ))
+    Some(why.message + ": only f64 is generated; choose other units for both")
 }
 
 /// The relative rounding errors of subnormal constants are not bounded by u.
@@ -50,7 +47,7 @@ pub(super) fn check_constants(
     program: &Program,
     scalar: ScalarType,
 ) -> Result<Vec<String>, Diagnostic> {
-    let mut warnings = Vec::new();
+    let (function, mut warnings) = (program.function, Vec::new());
     for node in &program.dag.nodes {
         let Node::Constant(constant) = node else {
             continue;
@@ -62,44 +59,31 @@ pub(super) fn check_constants(
             continue;
         }
         if !rounded.is_finite() || (rounded == 0.0 && !constant.is_zero()) {
-            let message = format!(
-                "`{}` needs the constant {:e}, which {scalar} cannot hold",
-                program.function,
-                f64::nearest(constant)
-            );
+            let value = f64::nearest(constant);
+            let message =
+                format!("`{function}` needs the constant {value:e}, which {scalar} cannot hold");
             let help = scalar.of("choose other units", "choose other units or a wider scalar");
             return Err(Diagnostic::error(message).with_help(help));
         }
         if rounded != 0.0 && rounded.abs() < scalar.least_normal() {
             warnings.push(format!(
-                "`{}`: the constant {rounded:e} is subnormal in {scalar}",
-                program.function
+                "`{function}`: the constant {rounded:e} is subnormal in {scalar}"
             ));
         }
     }
     Ok(warnings)
 }
 
-pub(super) fn warn_of_overflow(
-    robot: &Robot,
-    program: &Program,
-    scalar: ScalarType,
-    warnings: &mut Vec<String>,
-) {
+pub(super) fn overflow(robot: &Robot, program: &Program, scalar: ScalarType) -> Option<String> {
     // No box says how close to zero a divisor comes, or what is wished for.
     let is_bounded = |argument| Argument::STATE.contains(argument);
     if program.divides() || !program.arguments.iter().all(is_bounded) {
-        return;
+        return None;
     }
-    let Ok(limits) = InputBox::of(robot) else {
-        return;
-    };
-    let overflows = overflows(program, scalar, &limits);
-    if let Some(first) = overflows.first() {
-        warnings.push(format!(
-            "`{}` in {scalar}, inside the robot's limits: {first}; {} more like it",
-            program.function,
-            overflows.len() - 1
-        ));
-    }
+    let overflows = overflows(program, scalar, &InputBox::of(robot).ok()?);
+    let (first, others) = overflows.split_first()?;
+    let (function, more) = (program.function, others.len());
+    Some(format!(
+        "`{function}` in {scalar}, inside the robot's limits: {first}; {more} more like it"
+    ))
 }

@@ -94,18 +94,15 @@ impl<'a> Search<'a> {
     fn new(job: &Job<'a>, function: Function) -> Search<'a> {
         let task = job.setup.task(function);
         let is_lenient = job.request.prefer == Prefer::Operations;
-        Search {
-            job: *job,
-            task,
-            judge: AccuracyFilter::new(task, is_lenient),
-        }
+        let (job, judge) = (*job, AccuracyFilter::new(task, is_lenient));
+        Search { job, task, judge }
     }
 
     /// Goes on from the program that is renewed, which stays unless there is a cheaper one.
     fn apart(&self) -> Result<Origin, GenerateError> {
         let mut result = self.cheapest()?;
         if let Some((entry, program)) = self.renewed() {
-            let again = self.on_from(&entry, &program, &result);
+            let again = self.renew(&entry, &program, &result);
             if let Some(again) = again.filter(|rerun| rerun.cost() < result.cost()) {
                 result = again;
             }
@@ -121,10 +118,8 @@ impl<'a> Search<'a> {
             searched.start.counts(),
             program.counts(),
         ];
-        let passes = Pass::NAMES
-            .into_iter()
-            .zip(counts)
-            .map(|(name, counts)| Pass { name, counts });
+        let named = Pass::NAMES.into_iter().zip(counts);
+        let passes = named.map(|(name, counts)| Pass { name, counts });
         Ok((seed.source, passes.collect(), program, result.refused))
     }
 
@@ -149,10 +144,8 @@ impl<'a> Search<'a> {
         let mut result = self.run(Effort::Thorough, true, &[], watch)?;
         if self.order(&result) > self.order(&quick) {
             result = quick;
-        } else {
-            let again =
-                |refusal: RefusedProgram| self.refused(refusal.counts, refusal.error, &result);
-            result.refused = quick.refused.and_then(again);
+        } else if let Some(refusal) = quick.refused {
+            result.refused = self.refused(refusal.counts, refusal.error, &result);
         }
         tell(Part::Proof, Some(result.searched.graph.counts()));
         Ok(result)
@@ -179,20 +172,15 @@ impl<'a> Search<'a> {
         is_right.then_some((entry, program))
     }
 
-    fn on_from(
-        &self,
-        entry: &Entry,
-        program: &Program,
-        result: &SearchResult,
-    ) -> Option<SearchResult> {
+    fn renew(&self, entry: &Entry, program: &Program, best: &SearchResult) -> Option<SearchResult> {
         let again = Approach {
-            tuned: result.tuned.clone(),
+            tuned: best.tuned.clone(),
             seeds: vec![Seed {
                 source: entry.source,
                 traced: entry.passes.first()?.counts,
                 graph: program.dag.clone(),
             }],
-            helpers: vec![result.searched.graph.clone()],
+            helpers: vec![best.searched.graph.clone()],
         };
         let watch = self.job.request.watch.over(self.task.function);
         self.search_from(again, self.job.request.effort, true, watch)
@@ -210,11 +198,8 @@ impl<'a> Search<'a> {
         if graph.counts().operations() > LARGE && error <= self.judge.textbook() {
             return Ok(free);
         }
-        let same = Approach {
-            tuned: free.tuned.clone(),
-            seeds: free.seeds.clone(),
-            helpers: Vec::new(),
-        };
+        let mut same = Approach::of(free.seeds.clone());
+        same.tuned.clone_from(&free.tuned);
         let again = |from| self.search_from(from, Effort::Quick, true, watch);
         let mut candidate = again(same);
         let is_near = |result: &SearchResult| {
@@ -232,9 +217,8 @@ impl<'a> Search<'a> {
         if !self.accepts(&result) {
             // All that share parameters lose digits, as beside a heavy rotor: the textbook's does not.
             let textbook = Start::textbook(self.task).and_then(again);
-            result = textbook
-                .filter(|textbook| self.accepts(textbook))
-                .unwrap_or(result);
+            let accepted = textbook.filter(|textbook| self.accepts(textbook));
+            result = accepted.unwrap_or(result);
         }
         // The limit holds for every result: what breaks it for one may be cheaper and have no
         // larger largest error than what keeps it for all.
@@ -265,11 +249,10 @@ impl<'a> Search<'a> {
         let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let problem = Tuning {
-            task: self.task,
-            effort,
             limit,
             from,
             watch,
+            ..Tuning::new(self.task, effort)
         };
         let search = |approach| self.search_from(approach, effort, limited, watch);
         let approaches = self.job.request.start.approaches(&problem).into_iter();

@@ -5,7 +5,7 @@ use dalembert_model::diagnostic::Diagnostic;
 use super::{GenerateError, GeneratedFunction, Job};
 use crate::figures::bound_of;
 use crate::function::Function;
-use crate::program::{Program, ScalarType, has_inertia};
+use crate::program::{ScalarType, has_inertia};
 use crate::setup::Setup;
 use crate::sincos::reach::OutOfReach;
 use crate::sincos::{self, AngleKernel, SinCos, Sines};
@@ -68,19 +68,24 @@ fn polynomials(
 }
 
 fn refused(function: Function, miss: &OutOfReach) -> GenerateError {
-    GenerateError::SinCos(
-        function,
-        Diagnostic::error(miss.to_string()).with_help(miss.help()),
-    )
+    let why = Diagnostic::error(miss.to_string()).with_help(miss.help());
+    GenerateError::SinCos(function, why)
 }
 
+/// Refuses sines that spoil D: exact ones keep it positive definite for certain, and these do not.
 fn check_inertia(
     setup: &Setup,
     generated: &GeneratedFunction,
     scalar: ScalarType,
     sines: &[AngleKernel],
 ) -> Result<(), GenerateError> {
-    if !spoil_inertia(setup, &generated.program, sines) {
+    let program = &generated.program;
+    // Of a joint that slides without an end, no box has all positions.
+    let is_spoilt = has_inertia(program)
+        && domain(setup, program, None).is_ok_and(|domain| {
+            !is_definite(&domain, program, sines, None) && is_definite(&domain, program, &[], None)
+        });
+    if !is_spoilt {
         return Ok(());
     }
     let errors = sines.iter().map(|sine| sine.errors.worst());
@@ -92,13 +97,4 @@ fn check_inertia(
     let help = "use a smaller `sincos_error`, or `sincos: libm`";
     let why = Diagnostic::error(message).with_help(help);
     Err(GenerateError::SinCos(generated.function, why))
-}
-
-/// True if exact sines keep D positive definite for certain, and these do not.
-fn spoil_inertia(setup: &Setup, program: &Program, sines: &[AngleKernel]) -> bool {
-    // Of a joint that slides without an end, no box has all positions.
-    has_inertia(program)
-        && domain(setup, program, None).is_ok_and(|domain| {
-            !is_definite(&domain, program, sines, None) && is_definite(&domain, program, &[], None)
-        })
 }

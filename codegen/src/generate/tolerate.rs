@@ -5,6 +5,7 @@
 //! programs: little while a compiler waits, minutes for a plan.
 
 use dalembert_model::diagnostic::Diagnostic;
+use dalembert_model::scene::Tolerance;
 
 use crate::function::Function;
 use crate::generate::{GenerateError, GeneratedFunction, Job, Outcome};
@@ -22,9 +23,8 @@ pub(super) fn tolerate(
     job: &Job<'_>,
     functions: &mut [GeneratedFunction],
 ) -> Result<Vec<ScalarType>, GenerateError> {
-    let (loads, functions): (Vec<_>, Vec<_>) = functions
-        .iter_mut()
-        .partition(|function| function.function == Function::Load);
+    let is_load = |function: &&mut GeneratedFunction| function.function == Function::Load;
+    let (loads, functions): (Vec<_>, Vec<_>) = functions.iter_mut().partition(is_load);
     let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
     let load = loads.first().map(|load| &load.program);
     let Some(variant_sets) = admitted(job, &programs, load)? else {
@@ -33,20 +33,13 @@ pub(super) fn tolerate(
     for load in loads {
         load.program = job.finished(&load.program);
     }
-    let variants = variant_sets
-        .first()
-        .map_or(&[][..], |variant_set| &variant_set.variants)
-        .iter();
+    let variants = variant_sets.iter().take(1).flat_map(|set| &set.variants);
     let scalars = variants.map(|variant| variant.scalar).collect();
     for (function, admitted) in functions.into_iter().zip(variant_sets) {
         function.program = job.finished(&admitted.program);
-        let sines = admitted
-            .variants
-            .iter()
-            .filter(|variant| !variant.sines.is_empty());
-        function.sines = sines
-            .map(|variant| (variant.scalar, variant.sines.clone()))
-            .collect();
+        let with_sines = (admitted.variants.iter()).filter(|variant| !variant.sines.is_empty());
+        let sines = with_sines.map(|variant| (variant.scalar, variant.sines.clone()));
+        function.sines = sines.collect();
         function.admitted = Some(admitted);
     }
     Ok(scalars)
@@ -77,13 +70,14 @@ pub fn admitted(
     }
     let mut budgets = Vec::new();
     for program in programs {
-        let budget = Budget::new(job.setup, program, load, tolerance.relative_to)?;
-        budgets.push(budget.emitting(request.sincos.library(), request.fma));
+        let mut budget = Budget::new(job.setup, program, load, tolerance.relative_to)?;
+        (budget.library, budget.is_fused) = (request.sincos.library(), request.fma);
+        budgets.push(budget);
     }
     let meter = Meter::new(request.work);
     let last = choices.len() - 1;
     for (index, scalars) in choices.into_iter().enumerate() {
-        match in_scalars(job, &budgets, &scalars, meter) {
+        match in_scalars(job, &budgets, &scalars, tolerance, meter) {
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
@@ -96,31 +90,23 @@ pub fn admitted(
     Err(GenerateError::empty())
 }
 
-/// The variant of a plan, or those of the exact program, to search from.
-enum VariantStart {
-    Planned(VariantSet),
-    Exact(VariantSet),
-}
-
 /// Checks first that the tolerance admits the exact programs: a refusal comes before any search.
 fn in_scalars(
     job: &Job<'_>,
     budgets: &[Budget<'_>],
     scalars: &[ScalarType],
+    tolerance: &Tolerance,
     meter: Meter,
 ) -> Result<Vec<VariantSet>, GenerateError> {
-    let Some(tolerance) = job.tolerance() else {
-        return Err(GenerateError::empty());
-    };
     let mut starts = Vec::new();
     for budget in budgets {
         let allowed = budget.allowed(tolerance);
         starts.push(match usable(job, budget, &allowed, scalars)? {
-            Some(planned) => VariantStart::Planned(planned),
-            None => VariantStart::Exact(budget.unedited(scalars, &allowed)?),
+            Some(planned) => (planned, true),
+            None => (budget.unedited(scalars, &allowed)?, false),
         });
     }
-    let chosen = |(budget, start): (&Budget<'_>, VariantStart)| {
+    let chosen = |(budget, start): (&Budget<'_>, (VariantSet, bool))| {
         let allowed = budget.allowed(tolerance);
         chosen(job, budget, start, &allowed, scalars, meter)
     };
@@ -151,16 +137,15 @@ fn usable(
     if rest.iter().any(|other| other != first) {
         return Ok(None);
     }
-    let outcome = budget
-        .planned(first, scalars, allowed)
-        .map_err(|refuted| GenerateError::Variant(function, refuted))?;
-    Ok(outcome.ok())
+    let wrong = |refuted| GenerateError::Variant(function, refuted);
+    Ok(budget.planned(first, scalars, allowed).map_err(wrong)?.ok())
 }
 
+/// The start is the variant of a plan, which stays, or those of the exact program, to search from.
 fn chosen(
     job: &Job<'_>,
     budget: &Budget<'_>,
-    start: VariantStart,
+    (start, is_planned): (VariantSet, bool),
     allowed: &Tolerances,
     scalars: &[ScalarType],
     meter: Meter,
@@ -177,9 +162,9 @@ fn chosen(
         _ => SearchEffort::QUICK,
     };
     effort.work = request.work.map(|work| work.saturating_sub(meter.done()));
-    let mut admitted = match start {
-        VariantStart::Planned(planned) => planned,
-        VariantStart::Exact(exact) => budget.choose(&[], exact, allowed, &effort, watch)?,
+    let mut admitted = match is_planned {
+        true => start,
+        false => budget.choose(&[], start, allowed, &effort, watch)?,
     };
     let with = |admitted: &VariantSet| -> Result<Vec<Variant>, Diagnostic> {
         let with = |variant| budget.with_polynomials(&admitted.program, variant, allowed);
@@ -196,8 +181,7 @@ fn chosen(
             let mut variants = with(&admitted);
             // What was left out may have used up what polynomials need.
             if variants.is_err() {
-                let exact = budget.unedited(scalars, allowed);
-                admitted = exact?;
+                admitted = budget.unedited(scalars, allowed)?;
                 variants = with(&admitted);
             }
             admitted.variants = variants.map_err(|why| {

@@ -30,9 +30,8 @@ pub(crate) fn is_bundle(function: Function) -> bool {
 }
 
 pub(crate) fn argument_structure(argument: Argument, names: &Names) -> Option<String> {
-    argument
-        .has_type()
-        .then(|| names.of(&format!("{}_t", argument.name())))
+    let name = argument.name();
+    argument.has_type().then(|| names.of(&format!("{name}_t")))
 }
 
 pub(crate) fn is_number(function: Function) -> bool {
@@ -59,15 +58,13 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
 }
 
 pub(crate) fn shaped(quantity: Quantity, sizes: Sizes) -> String {
-    let lengths: Vec<String> = quantity
-        .shape()
-        .lengths(sizes)
-        .map(|length| format!("[{length}]"))
-        .collect();
-    let is_matrix = lengths.len() > 1;
+    let shape = quantity.shape();
+    let lengths = shape.lengths(sizes);
+    let brackets: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
+    let is_matrix = brackets.len() > 1;
     let rows = if is_matrix { ", row by row" } else { "" };
     let (field, summary) = (quantity.field(), quantity.facts().summary);
-    format!("{field}{}{rows}: {summary}", lengths.concat())
+    format!("{field}{}{rows}: {summary}", brackets.concat())
 }
 
 /// The angles of one state may be far; in a batch the function is told.
@@ -101,12 +98,8 @@ pub(crate) fn head(program: &Program, names: &Names, is_told: bool) -> String {
             parameters.push(format!("{float} {name}[{restrict} {length}]"));
         }
     }
-    format!(
-        "{} {result} {}({})",
-        names.dialect().function,
-        names.of(&name),
-        parameters.join(", ")
-    )
+    let (words, name) = (names.dialect().function, names.of(&name));
+    format!("{words} {result} {name}({})", parameters.join(", "))
 }
 
 fn written(function: Function) -> Vec<&'static str> {
@@ -130,7 +123,7 @@ pub(crate) fn single(program: &Program, names: &Names) -> String {
 
 /// The crate's algorithm calls others for far angles: calls would be in the way of vectors.
 pub(crate) fn is_told(code: &Code, names: &Names) -> bool {
-    names.language() == Language::C && trig::taken(code).next().is_some()
+    names.language == Language::C && trig::taken(code).next().is_some()
 }
 
 pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool) -> String {
@@ -167,10 +160,8 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         }
     }
     if let Some(called) = &called {
-        called
-            .lines(names)
-            .iter()
-            .for_each(|statement| line(statement));
+        let lines = called.lines(names);
+        lines.iter().for_each(|statement| line(statement));
         for pair in by_call {
             for (name, is_sine) in taken(pair) {
                 let value = called.value(pair.joint, is_sine).unwrap_or_default();
@@ -194,17 +185,13 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
                     let array = array.as_ref().filter(|_| is_forgotten);
                     array.map(|array| format!("{}({array});", names.constant("FORGET")))
                 };
-                block.before.iter().for_each(|statement| line(statement));
-                forget(&block.read)
-                    .iter()
-                    .for_each(|statement| line(statement));
-                line(&block.head);
+                let [read, written] = [&block.read, &block.written].map(forget);
+                let before = block.before.iter().chain(&read).chain([&block.head]);
+                before.for_each(|statement| line(statement));
                 let rows = block.rows.iter().flat_map(|(_, lines)| lines);
                 rows.for_each(|statement| line(&format!("    {statement}")));
                 line("}");
-                forget(&block.written)
-                    .iter()
-                    .for_each(|statement| line(statement));
+                written.iter().for_each(|statement| line(statement));
             }
         }
     }
@@ -235,14 +222,14 @@ fn stores(array: &str, values: &[String], is_four: bool, names: &Names) -> Vec<S
     let (four, float) = (names.constant("FOUR"), float(names.dialect().scalar));
     let store = |(first, chunk): (usize, &[String])| match chunk {
         [a, b, c, d] if is_four => {
-            vec![format!(
-                "{four}({float}, &{array}[{first}], {a}, {b}, {c}, {d});"
-            )]
+            let place = format!("&{array}[{first}]");
+            vec![format!("{four}({float}, {place}, {a}, {b}, {c}, {d});")]
         }
-        _ => (first..)
-            .zip(chunk)
-            .map(|(index, value)| format!("{array}[{index}] = {value};"))
-            .collect(),
+        _ => {
+            let entries = (first..).zip(chunk);
+            let stores = entries.map(|(index, value)| format!("{array}[{index}] = {value};"));
+            stores.collect()
+        }
     };
     let firsts = (0..).step_by(4);
     firsts.zip(values.chunks(4)).flat_map(store).collect()
@@ -250,7 +237,7 @@ fn stores(array: &str, values: &[String], is_four: bool, names: &Names) -> Vec<S
 
 /// `true` where a header has the macros by which compilers make vectors of lanes.
 pub(crate) fn has_vectors(code: &Code, names: &Names) -> bool {
-    names.language() == Language::C && !code.loops.is_empty()
+    names.language == Language::C && !code.loops.is_empty()
 }
 
 fn taken(pair: &Pair) -> impl Iterator<Item = (String, bool)> {

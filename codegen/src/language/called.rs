@@ -24,13 +24,12 @@ impl SineCall {
     /// In CUDA, and in what batches call, vectors are of states: each angle has its own call.
     pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<SineCall> {
         let angles: Vec<usize> = trig::taken(code).map(|pair| pair.joint).collect();
-        if is_told || names.language() != Language::C || angles.is_empty() {
+        if is_told || names.language != Language::C || angles.is_empty() {
             return None;
         }
-        Some(SineCall::neighbours(&angles, joints).unwrap_or(SineCall {
-            first: None,
-            angles,
-        }))
+        let neighbours = SineCall::neighbours(&angles, joints);
+        let first = None;
+        neighbours.or(Some(SineCall { first, angles }))
     }
 
     /// An even number, if that takes one joint more at the most, since vectors hold two or four.

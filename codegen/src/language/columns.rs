@@ -73,24 +73,20 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
         };
         format!("{}: &{kind}, ", argument.name())
     });
-    let in_rows = |argument: &Argument| function::named_type(*argument).is_some();
-    let passed = program
-        .arguments
-        .iter()
-        .map(|argument| match in_rows(argument) {
-            true => format!("dalembert_batch::Argument::Rows(&{})", argument.name()),
-            false => format!("dalembert_batch::Argument::Columns({})", argument.name()),
+    let (mut passed, mut rows) = (Vec::new(), 0);
+    for argument in &program.arguments {
+        let name = argument.name();
+        passed.push(match function::named_type(*argument) {
+            Some(_) => format!("dalembert_batch::Argument::Rows(&{name})"),
+            None => format!("dalembert_batch::Argument::Columns({name})"),
         });
-    let rows: usize = program
-        .arguments
-        .iter()
-        .filter(|argument| in_rows(argument))
-        .map(|argument| argument.length(program.sizes()))
-        .sum();
-    let of_rows = if rows > 0 {
-        "\n/// Slices of `Load` or `Gravity` have one element a state, or one for all states."
-    } else {
-        ""
+        if function::named_type(*argument).is_some() {
+            rows += argument.length(program.sizes());
+        }
+    }
+    let of_rows = match rows {
+        0 => "",
+        _ => "\n/// Slices of `Load` or `Gravity` have one element a state, or one for all states.",
     };
     text += &format!(
         "}}\n\n/// [`{name}`] at any number of states in columns: a slice for every entry of an argument, and of\n\
@@ -101,16 +97,14 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
          let arguments = [{}];\n    \
          dalembert_batch::columns::<{kind}, {sizes}, {rows}>(&arguments, results)\n}}\n",
         parameters.collect::<String>(),
-        list(passed),
+        passed.join(", "),
     );
     text
 }
 
 fn entries(program: &Program) -> usize {
-    let arguments = program.arguments.iter();
-    arguments
-        .map(|argument| argument.length(program.sizes()))
-        .sum()
+    let (sizes, arguments) = (program.sizes(), program.arguments.iter());
+    arguments.map(|argument| argument.length(sizes)).sum()
 }
 
 fn fuses_sines(code: &Code) -> bool {
@@ -118,7 +112,6 @@ fn fuses_sines(code: &Code) -> bool {
 }
 
 fn write_vectors(text: &mut String, program: &Program, code: &Code) {
-    write_angles(text, program, code);
     let dialect = Dialect::vectors(code.scalar);
     let mut body = String::new();
     trig::write_each(&mut body, code, dialect, |function, angle| {
@@ -132,20 +125,21 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
     let (mut slices, mut begin) = (String::new(), 0);
     for argument in &program.arguments {
         let end = begin + argument.length(program.sizes());
-        slices += &format!(
-            "        let {} = &entries[{begin}..{end}];\n",
-            argument.name()
-        );
+        let name = argument.name();
+        slices += &format!("        let {name} = &entries[{begin}..{end}];\n");
         begin = end;
     }
     let count = code.dag.outputs.len();
     let ([sin, cos], taken) = (trig::taken_names(code), trig::taken(code).count());
+    // Positions are the first entries.
+    let angles = list(trig::taken(code).map(|pair| format!("entries[{}]", pair.joint)));
+    let (scalar, inputs) = (code.scalar, entries(program));
     *text += &format!(
-        "\n{METHOD} vectors<V: dalembert_batch::Vector<{}>>(entries: &[V; {}], \
+        "{METHOD} angles<V: dalembert_batch::Floats<{scalar}>>(entries: &[V; {inputs}]) -> [V; {taken}] {{\n        \
+         [{angles}]\n    }}\n\n\
+         {METHOD} vectors<V: dalembert_batch::Vector<{scalar}>>(entries: &[V; {inputs}], \
          &[{sin}]: &[V; {taken}], &[{cos}]: &[V; {taken}]) -> [V; {count}] {{\n        \
-         let of = entries[0];\n{slices}",
-        code.scalar,
-        entries(program),
+         let of = entries[0];\n{slices}"
     );
     for line in body.lines() {
         *text += &format!("    {line}\n");
@@ -156,19 +150,7 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
 /// A function may read some of the entries only.
 const METHOD: &str = "    #[inline(always)]\n    #[allow(unused_variables)]\n    fn";
 
-/// Positions are the first entries.
-fn write_angles(text: &mut String, program: &Program, code: &Code) {
-    let angles = trig::taken(code).map(|pair| format!("entries[{}]", pair.joint));
-    *text += &format!(
-        "{METHOD} angles<V: dalembert_batch::Floats<{}>>(entries: &[V; {}]) -> [V; {}] {{\n        \
-         [{}]\n    }}\n",
-        code.scalar,
-        entries(program),
-        trig::taken(code).count(),
-        list(angles)
-    );
-}
-
+#[derive(Default)]
 struct Columns {
     parameters: Vec<String>,
     gathered: String,
@@ -182,12 +164,12 @@ impl Columns {
     fn of(program: &Program, names: &Names, restrict: &str) -> Columns {
         let (function, sizes) = (program.function, program.sizes());
         let float = float(names.dialect().scalar);
-        let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
-        let (mut gathered, mut stored) = (String::new(), String::new());
-        let mut load = None;
+        let mut columns = Columns::default();
+        let parameters = &mut columns.parameters;
+        parameters.push("const size_t n".to_owned());
         let at = |index: usize| entry(index, ["n", "s"]);
         // A thread of a kernel may be of another state than its load.
-        let of_load = match names.language() {
+        let of_load = match names.language {
             Language::Cuda => ["loads", "l"],
             Language::C | Language::Rust => ["n", "s"],
         };
@@ -199,26 +181,26 @@ impl Columns {
                 let per_state = (0..length).map(|index| format!("load[{}]", entry(index, of_load)));
                 let declared =
                     |entries| format!("        const {kind} load_s[1] = {{{{{{{entries}}}}}}};\n");
-                load = Some([one, list(per_state)].map(declared));
+                columns.load = Some([one, list(per_state)].map(declared));
                 parameters.push("const size_t loads".to_owned());
                 parameters.push(format!("const {float} *{restrict} load"));
-                passed.push("load_s".to_owned());
+                columns.passed.push("load_s".to_owned());
                 continue;
             }
             parameters.push(format!("const {float} *{restrict} {name}"));
             let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
-            gathered += &match argument_structure(argument, names) {
+            columns.gathered += &match argument_structure(argument, names) {
                 Some(kind) => {
                     format!("        const {kind} {name}_s[1] = {{{{{{{entries}}}}}}};\n")
                 }
                 None => format!("        const {float} {name}_s[{length}] = {{{entries}}};\n"),
             };
-            passed.push(format!("{name}_s"));
+            columns.passed.push(format!("{name}_s"));
         }
         if is_bundle(function) && !is_number(function) {
             let kind = structure_name(function, names);
-            gathered += &format!("        {kind} result_s[1];\n");
-            passed.push("result_s".to_owned());
+            columns.gathered += &format!("        {kind} result_s[1];\n");
+            columns.passed.push("result_s".to_owned());
         }
         for quantity in function.quantities() {
             let (field, length) = (quantity.field(), quantity.len(sizes));
@@ -229,21 +211,15 @@ impl Columns {
             let mut array = format!("result_s->{field}");
             if !is_bundle(function) {
                 array = format!("{field}_s");
-                gathered += &format!("        {float} {array}[{length}];\n");
-                passed.push(array.clone());
+                columns.gathered += &format!("        {float} {array}[{length}];\n");
+                columns.passed.push(array.clone());
             }
             for index in 0..length {
                 let place = at(index);
-                stored += &format!("        {field}[{place}] = {array}[{index}];\n");
+                columns.stored += &format!("        {field}[{place}] = {array}[{index}];\n");
             }
         }
-        Columns {
-            parameters,
-            gathered,
-            passed,
-            stored,
-            load,
-        }
+        columns
     }
 
     fn call(&self, function: Function, names: &Names, is_told: bool) -> String {
@@ -260,7 +236,7 @@ impl Columns {
 }
 
 pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
-    if names.language() == Language::Cuda {
+    if names.language == Language::Cuda {
         return kernel(program, names);
     }
     let [restrict, simd] = ["RESTRICT", "SIMD"].map(|word| names.constant(word));
@@ -276,27 +252,22 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
         let (scalar, joints) = (code.scalar, program.joints);
         let far = largest(scalar) / joints.next_power_of_two() as f64;
         let (far, f) = (names.dialect().literal(Literal(far)), scalar.math_suffix());
-        let near = (0..joints)
-            .map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"))
-            .collect::<Vec<String>>()
-            .join(" && ");
+        let angles = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
+        let near = angles.collect::<Vec<String>>().join(" && ");
         let when = format!("        if ({near}) {{\n            continue;\n        }}\n");
         near_enough = Some(when);
     }
     let loops = |load: &str| {
-        let again: String = near_enough
-            .iter()
-            .map(|when| body(load, false, when))
-            .collect();
+        let far = near_enough.iter().map(|when| body(load, false, when));
+        let again: String = far.collect();
         format!("    {simd}\n{}{again}", body(load, is_told, ""))
     };
     let (loops, of_load) = match &columns.load {
         None => (loops(""), ""),
         Some([one, per_state]) => {
-            let (shared, separate) = (loops(""), loops(per_state));
-            let text =
-                format!("    if (loads == 1U) {{\n{one}{shared}    }} else {{\n{separate}    }}\n");
-            (text, LOADS)
+            let (shared, alone) = (loops(""), loops(per_state));
+            let head = format!("    if (loads == 1U) {{\n{one}{shared}");
+            (format!("{head}    }} else {{\n{alone}    }}\n"), LOADS)
         }
     };
     format!(

@@ -83,16 +83,11 @@ impl Dialect {
         }
     }
 
-    pub(super) fn fused_sum(
-        &self,
-        fusion: &Fusion,
-        [left, right]: [String; 2],
-        addend: &str,
-    ) -> String {
-        let left = match fusion.negative {
-            true => filled(self.negative, &[&left]),
-            false => left,
-        };
+    pub(super) fn fused_sum(&self, fusion: &Fusion, factors: [String; 2], addend: &str) -> String {
+        let [mut left, right] = factors;
+        if fusion.negative {
+            left = filled(self.negative, &[&left]);
+        }
         let sign = if fusion.minus { "-" } else { "" };
         filled(self.fused, &[&left, &right, &format!("{sign}{addend}")])
     }
@@ -126,20 +121,13 @@ pub(crate) struct Lines<'c, I> {
 
 impl<'c> Lines<'c, Input> {
     pub(crate) fn new(dialect: Dialect, code: &'c Code) -> Lines<'c, Input> {
-        Lines {
-            dialect,
-            dag: &code.dag,
-            numbers: code.dag.numbers(),
-            prefix: "t".to_owned(),
-            input: Box::new(move |input: &Input| match input {
-                Input::Entry(argument, index) if argument.has_type() => {
-                    let array = filled(dialect.array, &[argument.name(); 2]);
-                    format!("{array}[{index}]")
-                }
-                other => other.name(),
-            }),
-            names: HashMap::new(),
-        }
+        Lines::over(dialect, &code.dag, "t", move |input| match input {
+            Input::Entry(argument, index) if argument.has_type() => {
+                let array = filled(dialect.array, &[argument.name(); 2]);
+                format!("{array}[{index}]")
+            }
+            other => other.name(),
+        })
     }
 }
 
@@ -150,18 +138,27 @@ impl<'c> Lines<'c, Angle> {
         angle: &'c str,
         prefix: &str,
     ) -> Lines<'c, Angle> {
-        Lines {
-            dialect,
-            dag: &kernel.dag,
-            numbers: kernel.dag.numbers(),
-            prefix: prefix.to_owned(),
-            input: Box::new(|_| angle.to_owned()),
-            names: HashMap::new(),
-        }
+        Lines::over(dialect, &kernel.dag, prefix, |_| angle.to_owned())
     }
 }
 
-impl<I> Lines<'_, I> {
+impl<'c, I> Lines<'c, I> {
+    fn over(
+        dialect: Dialect,
+        dag: &'c Dag<Literal, I>,
+        prefix: &str,
+        input: impl Fn(&I) -> String + 'c,
+    ) -> Lines<'c, I> {
+        Lines {
+            dialect,
+            dag,
+            numbers: dag.numbers(),
+            prefix: prefix.to_owned(),
+            input: Box::new(input),
+            names: HashMap::new(),
+        }
+    }
+
     pub(super) fn name(&mut self, id: Id, name: String, is_negative: bool) {
         self.names.insert(id, (name, is_negative));
     }
@@ -182,11 +179,8 @@ impl<I> Lines<'_, I> {
 
     pub(crate) fn result(&self, output: Edge) -> String {
         let is_stored = self.names.get(&output.node).is_some_and(|name| name.1);
-        let sign = if output.negative != is_stored {
-            "-"
-        } else {
-            ""
-        };
+        let is_negative = output.negative != is_stored;
+        let sign = if is_negative { "-" } else { "" };
         format!("{sign}{}", self.operand(output.node))
     }
 

@@ -38,17 +38,28 @@ pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -
 }
 
 pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
-    let lines = Lines::new(dialect, code);
     let ids: Vec<Id> = code.dag.operations().map(|(id, ..)| id).collect();
+    let lines = Lines::new(dialect, code);
+    write_shared(text, code, &lines, &ids, (ids.len() > FLAT, Id::MAX));
+}
+
+/// Writes operations outside of loops; `end` is the first one behind them.
+fn write_shared(
+    text: &mut String,
+    code: &Code,
+    lines: &Lines<'_, Input>,
+    ids: &[Id],
+    (is_cut, end): (bool, Id),
+) {
     Blocks {
         indent: "    ",
-        is_cut: ids.len() > FLAT,
+        is_cut,
         last_use: &last_uses(code),
         is_whole: &|id| code.dag.fusion(id).is_none(),
         name: &|id| lines.operand(id),
         lines: &|id| lines.statement(id).into_iter().collect(),
     }
-    .write(text, &ids, Id::MAX);
+    .write(text, ids, end);
 }
 
 /// Writes operations, and returns the names by which results read them.
@@ -59,20 +70,12 @@ fn write_pieces<'c>(text: &mut String, code: &'c Code, dialect: Dialect) -> Line
         Piece::Lanes(_) => 0,
     });
     let is_cut = shared.sum::<usize>() > FLAT;
-    let last_use = last_uses(code);
     for (place, piece) in pieces.iter().enumerate() {
         match piece {
             Piece::Shared(ids) => {
                 let next = pieces[place + 1..].iter().find_map(Piece::first);
-                Blocks {
-                    indent: "    ",
-                    is_cut,
-                    last_use: &last_use,
-                    is_whole: &|id| code.dag.fusion(id).is_none(),
-                    name: &|id| lines.operand(id),
-                    lines: &|id| lines.statement(id).into_iter().collect(),
-                }
-                .write(text, ids, next.unwrap_or(Id::MAX));
+                let end = next.unwrap_or(Id::MAX);
+                write_shared(text, code, &lines, ids, (is_cut, end));
             }
             Piece::Lanes(lanes) => write_loop(text, code, lanes),
         }
@@ -150,11 +153,9 @@ impl Blocks<'_> {
             let end = after.first().copied().unwrap_or(end);
             rest = after;
             // A block hands on what is read after it: that much is live.
-            let live: String = block
-                .iter()
-                .filter(|&&id| self.last_use[id as usize] >= end)
-                .map(|&id| format!("{}, ", (self.name)(id)))
-                .collect();
+            let is_live = |id: &&Id| self.last_use[**id as usize] >= end;
+            let name = |id: &Id| format!("{}, ", (self.name)(*id));
+            let live: String = block.iter().filter(is_live).map(name).collect();
             if live.is_empty() {
                 // The last one of a loop, whose values are all stored.
                 *text += &self.flat(block, indent);

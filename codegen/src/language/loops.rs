@@ -104,11 +104,9 @@ fn places(code: &Code, ids: &[Id]) -> HashMap<Id, (usize, usize, usize)> {
 /// Lists the rows that something outside of a loop reads, ascending; and if only results do, and all
 /// of them the negative, which the loop then stores.
 fn exports(code: &Code, ids: &[Id], block: &Loop) -> Vec<(usize, bool)> {
-    let inside: HashMap<Id, usize> = ids[block.first..block.end()]
-        .iter()
-        .enumerate()
-        .map(|(place, id)| (*id, place % block.rows))
-        .collect();
+    let rows = (0..block.rows).cycle();
+    let places = ids[block.first..block.end()].iter().copied().zip(rows);
+    let inside: HashMap<Id, usize> = places.collect();
     // Reads of the value, and of its negative.
     let mut reads = vec![[false; 2]; block.rows];
     let mut mark_read = |id: &Id, is_negative: bool| {
@@ -117,21 +115,20 @@ fn exports(code: &Code, ids: &[Id], block: &Loop) -> Vec<(usize, bool)> {
         }
     };
     for (id, _, operands) in code.dag.operations() {
-        if !inside.contains_key(&id) {
-            operands
-                .iter()
-                .for_each(|operand| mark_read(operand, false));
+        for operand in operands.iter().filter(|_| !inside.contains_key(&id)) {
+            mark_read(operand, false);
         }
     }
     for edge in &code.dag.outputs {
         mark_read(&edge.node, edge.negative);
     }
-    let read = reads
-        .iter()
-        .enumerate()
-        .filter(|(_, reads)| **reads != [false; 2]);
-    read.map(|(row, reads)| (row, *reads == [false, true]))
-        .collect()
+    let mut exports = Vec::new();
+    for (row, reads) in reads.into_iter().enumerate() {
+        if reads != [false; 2] {
+            exports.push((row, reads == [false, true]));
+        }
+    }
+    exports
 }
 
 struct LoopWriter<'a> {
@@ -158,23 +155,16 @@ impl LoopWriter<'_> {
         let number = self.number;
         let mut before = Vec::new();
         for (letter, array) in ["k", "u"].into_iter().zip(&self.arrays) {
-            let values = array
-                .iter()
-                .map(|ids| list(ids.iter().map(|id| lines.operand(*id))));
-            before.extend(self.dialect.filled_array(
-                &format!("{letter}{number}"),
-                letter == "k",
-                self.block.lanes,
-                &values.collect::<Vec<String>>(),
-            ));
+            let values = |ids: &Vec<Id>| list(ids.iter().map(|id| lines.operand(*id)));
+            let rows: Vec<String> = array.iter().map(values).collect();
+            let kind = (letter, number);
+            before.extend(self.dialect.array(kind, self.block.lanes, &rows));
         }
         let read = (!self.arrays[1].is_empty()).then(|| format!("u{number}"));
         let written = (!self.exports.is_empty()).then(|| format!("w{number}"));
         let sizes = [self.exports.len(), self.block.lanes];
-        let empty = written
-            .iter()
-            .map(|name| self.dialect.empty_array(name, sizes));
-        before.extend(empty);
+        let empty = |name: &String| self.dialect.empty_array(name, sizes);
+        before.extend(written.iter().map(empty));
         LoopText {
             first: self.ids[self.block.first],
             before,
@@ -253,13 +243,11 @@ impl LoopWriter<'_> {
         let is_number = |id: &Id| matches!(self.code.dag.node(*id), Node::Constant(_));
         let kind = usize::from(!lanes.iter().all(is_number));
         let array = &mut self.arrays[kind];
-        let place = array
-            .iter()
-            .position(|known| *known == lanes)
-            .unwrap_or_else(|| {
-                array.push(lanes);
-                array.len() - 1
-            });
+        let known = array.iter().position(|known| *known == lanes);
+        let place = known.unwrap_or(array.len());
+        if known.is_none() {
+            array.push(lanes);
+        }
         let letter = ["k", "u"][kind];
         format!("{letter}{}[{place}][l]", self.number)
     }
@@ -267,33 +255,24 @@ impl LoopWriter<'_> {
 
 impl Dialect {
     /// Returns the lines of an array of rows that have a value a lane; none without rows.
-    fn filled_array(
-        &self,
-        name: &str,
-        is_constant: bool,
-        lanes: usize,
-        rows: &[String],
-    ) -> Vec<String> {
+    fn array(&self, (letter, number): (&str, usize), lanes: usize, rows: &[String]) -> Vec<String> {
         if rows.is_empty() {
             return Vec::new();
         }
-        let (float, count) = (float(self.scalar), rows.len());
-        let (head, [open, close], end) = match self.language {
-            Language::Rust => (format!("let {name} = ["), ["[", "]"], "];"),
+        let (head, [open, close]) = match self.language {
+            Language::Rust => (format!("let {letter}{number} ="), ["[", "]"]),
             Language::C | Language::Cuda => {
-                let kind = if is_constant { "static const " } else { "" };
-                (
-                    format!("{kind}{float} {name}[{count}][{lanes}] = {{"),
-                    ["{", "}"],
-                    "};",
-                )
+                let kind = ["", "static const "][usize::from(letter == "k")];
+                let array = format!("{letter}{number}[{}][{lanes}]", rows.len());
+                let head = format!("{kind}{} {array} =", float(self.scalar));
+                (head, ["{", "}"])
             }
         };
-        let rows = rows
-            .iter()
-            .map(|values| format!("    {open}{values}{close},"));
-        let ends = [end.to_owned()];
-        [head].into_iter().chain(rows).chain(ends).collect()
+        let mut lines = vec![format!("{head} {open}")];
+        let row = |values: &String| format!("    {open}{values}{close},");
+        lines.extend(rows.iter().map(row));
+        lines.push(format!("{close};"));
+        lines
     }
 
     fn empty_array(&self, name: &str, [rows, lanes]: [usize; 2]) -> String {

@@ -47,12 +47,11 @@ impl Language {
     /// The endings that there are.
     pub fn of(path: &Path) -> Result<Language, String> {
         let ending = path.extension().unwrap_or_default();
-        let mut known = ENDINGS.iter();
+        let mut known = ENDINGS.into_iter();
         let entry = known.find(|(known, _)| ending.eq_ignore_ascii_case(known));
-        let shown =
-            |(ending, language): (&str, Language)| format!(".{ending} ({})", language.name());
-        let language = entry.map(|(_, language)| *language);
-        language.ok_or_else(|| ENDINGS.map(shown).join(", "))
+        let shown = |(ending, of): (&str, Language)| format!(".{ending} ({})", of.name());
+        let endings = || ENDINGS.map(shown).join(", ");
+        entry.map(|(_, language)| language).ok_or_else(endings)
     }
 
     /// Returns the default scalars: f64 in Rust, where each has a file of its own, else both.

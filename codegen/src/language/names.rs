@@ -75,7 +75,7 @@ fn cut(word: &str, most: usize) -> String {
 #[derive(Clone, Debug)]
 pub struct Names {
     base: String,
-    language: Language,
+    pub(super) language: Language,
     scalar: ScalarType,
 }
 
@@ -86,10 +86,6 @@ impl Names {
             language,
             scalar,
         }
-    }
-
-    pub(super) fn language(&self) -> Language {
-        self.language
     }
 
     pub(crate) fn dialect(&self) -> Dialect {
@@ -124,10 +120,8 @@ impl Names {
             false => LONGEST,
         };
         let named = within(LONGEST).or_else(|| within(limit));
-        (
-            named.unwrap_or_else(|| name(&cut(&shorter, room(limit)))),
-            limit,
-        )
+        let shortest = || name(&cut(&shorter, room(limit)));
+        (named.unwrap_or_else(shortest), limit)
     }
 
     pub(crate) fn symbols(&self, function: Function) -> Symbols {

@@ -56,17 +56,15 @@ impl<'a> Signature<'a> {
 }
 
 impl Code {
-    /// Reads a function out of a module's text, with its function of many states if it has one.
-    ///
-    /// # Errors
-    /// The first line that is not of such a function.
+    /// Reads a function out of a module's text, with its function of many states if it has one. Fails
+    /// with the first line that is not of such a function.
     pub fn read(
         text: &Text<'_>,
         signature: &Signature<'_>,
         names: &Names,
         has_many: bool,
     ) -> Result<Code, Fault> {
-        let is_c = names.language() != Language::Rust;
+        let is_c = names.language != Language::Rust;
         let symbols = is_c.then(|| names.symbols(signature.function));
         let (read, _) = text.function(&signature.head(), symbols.as_ref(), has_many)?;
         code(read, signature.scalar)
@@ -87,8 +85,7 @@ fn code(read: read::ReadFunction, scalar: ScalarType) -> Result<Code, Fault> {
     });
     let first = libraries.next().unwrap_or_default();
     if libraries.any(|other| other != first) {
-        let reason = "sines of two libraries".to_owned();
-        return Err(Fault::Text(1, reason));
+        return Err(Fault::Text(1, "sines of two libraries".to_owned()));
     }
     let pairs = read.sines.into_iter().map(|sine| {
         let [sin, cos] = sine.needs;
@@ -149,6 +146,6 @@ pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
         negative: *negative,
         value: operand(result),
     });
-    let (steps, outputs): (Vec<_>, Vec<_>) = (steps.collect(), outputs.collect());
+    let (steps, outputs) = (steps.collect(), outputs.collect());
     Steps { steps, outputs }.dag()
 }

@@ -30,23 +30,22 @@ pub(super) fn write(
     sizes: Sizes,
     mut items: impl Iterator<Item = String>,
 ) {
+    let lengths = |quantity: Quantity| -> Vec<usize> { quantity.shape().lengths(sizes).collect() };
     match function.structure() {
         None => {
-            let lengths: Vec<usize> = function.quantities()[0].shape().lengths(sizes).collect();
             let [before, after] = match function {
                 Function::Load => ["Load(", ")"],
                 _ => [""; 2],
             };
             *text += &format!("    {before}");
-            write_array(text, &mut items, &lengths, 1);
+            write_array(text, &mut items, &lengths(function.quantities()[0]), 1);
             *text += &format!("{after}\n");
         }
         Some(name) => {
             *text += &format!("    {name} {{\n");
             for quantity in function.quantities() {
                 *text += &format!("        {}: ", quantity.field());
-                let lengths: Vec<usize> = quantity.shape().lengths(sizes).collect();
-                write_array(text, &mut items, &lengths, 2);
+                write_array(text, &mut items, &lengths(*quantity), 2);
                 text.push_str(",\n");
             }
             text.push_str("    }\n");

@@ -77,10 +77,7 @@ pub(super) fn taken(code: &Code) -> impl Iterator<Item = &Pair> {
 }
 
 pub(super) fn taken_names(code: &Code) -> [String; 2] {
-    let name = |is_needed: bool, input: Input| match is_needed {
-        true => input.name(),
-        false => "_".to_owned(),
-    };
+    let name = |is_needed, input: Input| if is_needed { input.name() } else { "_".into() };
     let sines = taken(code).map(|pair| name(pair.need.sin, Input::Sin(pair.joint)));
     let cosines = taken(code).map(|pair| name(pair.need.cos, Input::Cos(pair.joint)));
     [list(sines), list(cosines)]

@@ -42,44 +42,23 @@ impl<'a, 'd> Composer<'a, 'd> {
         }
     }
 
-    /// Returns the program's graph, with its loops.
     pub(super) fn compose(mut self) -> (Dag, Vec<Loop>) {
         for part in &self.parts.parts {
             match part.class {
-                None => {
-                    let edges = self.part(part, None);
-                    for (value, edge) in part.exports.iter().zip(edges) {
-                        if let LaneOperand::Shared(id) = value {
-                            self.shared.insert(*id, edge);
-                        }
-                    }
-                }
+                None => self.part(part, None),
                 Some(class) => self.lanes(part, class),
             }
         }
-        let outputs = self
-            .rolled
-            .dag
-            .outputs
-            .clone()
-            .iter()
-            .map(|edge| {
-                let result = self.result(edge.node);
-                result.negated_if(edge.negative)
-            })
-            .collect();
+        let results = &self.rolled.dag.outputs;
+        let output = |edge: &Edge| self.result(edge.node).negated_if(edge.negative);
+        let outputs = results.iter().map(output).collect();
         (self.writer.finish(outputs), self.loops)
     }
 
     fn lanes(&mut self, part: &Part, class: usize) {
         let (first, lanes) = (self.operations, self.limbs.classes[class].len());
         for lane in 0..lanes {
-            let edges = self.part(part, Some((class, lane)));
-            for (value, edge) in part.exports.iter().zip(edges) {
-                if let LaneOperand::Row(row) = value {
-                    self.rows.entry(*row).or_default().push(edge);
-                }
-            }
+            self.part(part, Some((class, lane)));
         }
         let rows = (self.operations - first) / lanes;
         if rows > 0 {
@@ -107,7 +86,7 @@ impl<'a, 'd> Composer<'a, 'd> {
         }
     }
 
-    fn part(&mut self, part: &Part, lane: Option<(usize, usize)>) -> Vec<Edge> {
+    fn part(&mut self, part: &Part, lane: Option<(usize, usize)>) {
         let graph = &part.graph;
         let is_constant = self.constants(graph);
         let mut edges: Vec<Edge> = Vec::with_capacity(graph.nodes.len());
@@ -117,16 +96,12 @@ impl<'a, 'd> Composer<'a, 'd> {
                 Node::Constant(constant) => (None, Some(constant.clone())),
                 Node::Input(input) => self.input(*input, lane),
                 Node::Apply(operation, [a, b]) => {
-                    let exact = |a: &Option<Exact>, b: &Option<Exact>| {
-                        operation.exactly(a.as_ref()?, b.as_ref()?)
-                    };
                     let [a, b] = [*a as usize, *b as usize];
-                    let number = exact(&numbers[a], &numbers[b]).filter(|_| is_constant[id]);
-                    let edge = match &number {
-                        Some(_) => None,
-                        None => Some(self.apply(*operation, edges[a], edges[b])),
-                    };
-                    (edge, number)
+                    let both = numbers[a].as_ref().zip(numbers[b].as_ref());
+                    let exact = both.and_then(|(a, b)| operation.exactly(a, b));
+                    let number = exact.filter(|_| is_constant[id]);
+                    let apply = || self.apply(*operation, edges[a], edges[b]);
+                    (number.is_none().then(apply), number)
                 }
             };
             let edge = edge.unwrap_or_else(|| {
@@ -136,8 +111,13 @@ impl<'a, 'd> Composer<'a, 'd> {
             edges.push(edge);
             numbers.push(number);
         }
-        let output = |edge: &Edge| edges[edge.index()].negated_if(edge.negative);
-        graph.outputs.iter().map(output).collect()
+        for (value, output) in part.exports.iter().zip(&graph.outputs) {
+            let edge = edges[output.index()].negated_if(output.negative);
+            match *value {
+                LaneOperand::Shared(id) => drop(self.shared.insert(id, edge)),
+                LaneOperand::Row(row) => self.rows.entry(row).or_default().push(edge),
+            }
+        }
     }
 
     /// Tells of each node if it is a number in every lane: what one lane folds all do.

@@ -15,13 +15,13 @@ mod rolled;
 mod structure;
 mod sums;
 
-use dalembert_model::equations::chain::{Chain, Form, Regrouping};
-use dalembert_model::equations::matrix::zero_vector;
+use dalembert_model::equations::chain::{Chain, Form};
 use dalembert_model::number::Exact;
 
 use crate::dag::{Dag, Folding};
 use crate::program::{Counts, Loop, Program};
 use crate::search::{self, Effort, cost};
+use crate::seeds::descent::with_zero_origins;
 use crate::seeds::{skeleton_for, trace_symbols, tune};
 use crate::setup::Task;
 use crate::words::words;
@@ -52,8 +52,7 @@ const SEARCHED: usize = 3;
 
 /// Returns the price of a program: an operation of a loop costs one for each vector of lanes.
 pub(crate) fn price(program: &Program) -> u64 {
-    let loops = program.loops.iter();
-    let spared = loops.map(|block| {
+    let spared = program.loops.iter().map(|block| {
         let rows = program.dag.operations().skip(block.first).take(block.rows);
         let rows = Counts::of_operations(rows.map(|(_, operation, _)| operation));
         search::price(&rows) * (block.lanes - block.lanes.div_ceil(VECTOR)) as u64
@@ -68,12 +67,6 @@ pub(crate) fn is_traced(task: Task<'_>) -> bool {
     is_chain && !task.setup.takes_load(task.function)
 }
 
-struct Candidate<'a> {
-    chain: &'a Chain<Exact>,
-    form: Form,
-    price: u64,
-}
-
 /// Returns the cheapest program of a function whose limbs are lanes; none where no limbs have one
 /// structure, or the function is not traced as a chain.
 pub(crate) fn side_by_side(task: Task<'_>, effort: Effort) -> Option<Program> {
@@ -82,31 +75,26 @@ pub(crate) fn side_by_side(task: Task<'_>, effort: Effort) -> Option<Program> {
     }
     let chains = chains(task);
     let forms = task.function.forms();
-    let mut candidates: Vec<Candidate<'_>> = Vec::new();
+    let mut candidates: Vec<(u64, &Chain<Exact>, Form)> = Vec::new();
     for chain in chains.iter().filter(|chain| !classes(chain).is_empty()) {
         for &form in forms.iter().filter(|form| !form.shoulder) {
             let price = with_parts(task, chain, form, |_, limbs, parts| {
                 let price = |part: &Part| weight(part, limbs) * merged_cost(&part.graph);
                 parts.parts.iter().map(price).sum()
             });
-            candidates.push(Candidate { chain, form, price });
+            candidates.push((price, chain, form));
         }
     }
-    candidates.sort_by_key(|candidate| candidate.price);
-    candidates.dedup_by_key(|candidate| candidate.price);
+    candidates.sort_by_key(|(price, ..)| *price);
+    candidates.dedup_by_key(|(price, ..)| *price);
     candidates.truncate(SEARCHED);
-    let programs = candidates.iter().filter_map(|candidate| {
-        let (dag, loops) = with_parts(
-            task,
-            candidate.chain,
-            candidate.form,
-            |rolled, limbs, parts| {
-                for part in &mut parts.parts {
-                    part.graph = searched(&part.graph, effort).scheduled();
-                }
-                Composer::new(rolled, limbs, parts, base(task)).compose()
-            },
-        );
+    let programs = candidates.iter().filter_map(|&(_, chain, form)| {
+        let (dag, loops) = with_parts(task, chain, form, |rolled, limbs, parts| {
+            for part in &mut parts.parts {
+                part.graph = searched(&part.graph, effort).scheduled();
+            }
+            Composer::new(rolled, limbs, parts, base(task)).compose()
+        });
         let program = with_loops(&task.program(&dag), dag, loops)?;
         Some((price(&program), program))
     });
@@ -119,24 +107,25 @@ fn base(task: Task<'_>) -> usize {
 }
 
 fn weight(part: &Part, limbs: &Limbs) -> u64 {
-    let lanes = part
-        .class
-        .map_or(1, |class| limbs.classes[class].len().div_ceil(VECTOR));
-    lanes as u64
+    let vectors = |class: usize| limbs.classes[class].len().div_ceil(VECTOR);
+    part.class.map_or(1, vectors) as u64
 }
 
 fn merged_cost(graph: &Dag) -> u64 {
-    let counts = graph.rebuild(Folding::Semantic).counts();
-    search::price(&Counts {
-        sincos: 0,
-        ..counts
-    })
+    let mut counts = graph.rebuild(Folding::Semantic).counts();
+    counts.sincos = 0;
+    search::price(&counts)
 }
 
 fn searched(graph: &Dag, effort: Effort) -> Dag {
     let limits = |operations| effort.limits(operations);
-    let seeds = [graph.clone()];
-    let result = search::search(&seeds, &[], &limits, &|_| true, &|_, _| true);
+    let result = search::search(
+        std::slice::from_ref(graph),
+        &[],
+        &limits,
+        &|_| true,
+        &|_, _| true,
+    );
     result.map_or_else(|| graph.clone(), |result| result.graph)
 }
 
@@ -175,10 +164,7 @@ fn with_parts<T>(
 fn chains(task: Task<'_>) -> Vec<Chain<Exact>> {
     let arm = skeleton_for(task);
     let start = tune::start(&arm);
-    let mut beside: Regrouping<Exact> = start.clone();
-    for link in &mut beside.links {
-        link.origin = zero_vector();
-    }
+    let beside = with_zero_origins(&start);
     let mut chains = Vec::new();
     for regrouping in [start, beside] {
         let mut chain = Chain::new(&arm, &regrouping);
@@ -213,10 +199,8 @@ mod tests {
             include_str!("../../../gallery/robots/g1_hand.toml"),
             include_str!("../../../gallery/robots/go2.toml"),
         ];
-        for (source, name) in robots
-            .into_iter()
-            .zip(["inverse_dynamics", "forward_dynamics"])
-        {
+        let names = ["inverse_dynamics", "forward_dynamics"];
+        for (source, name) in robots.into_iter().zip(names) {
             let robot = dalembert_model::read::parse(source).unwrap().robot;
             let function = crate::function::Function::parse(name).unwrap();
             let setup = Setup::in_scene(&robot, None).unwrap().taking(&[]);

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use dalembert_model::number::Exact;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::rolled::{Content, LaneOperand, LimbRows};
 use super::structure::{Limbs, OPAQUE, tuple_input};
@@ -27,7 +27,6 @@ pub(super) struct Part {
     pub class: Option<usize>,
     /// As lane 0 computes it. Its inputs are the function's, entries of tuples and imports.
     pub graph: Dag,
-    /// The values that the graph returns.
     pub exports: Vec<LaneOperand>,
 }
 
@@ -40,12 +39,10 @@ pub(super) struct Parts {
 
 impl Parts {
     pub(super) fn import(&self, input: Input) -> Option<Import> {
-        match input {
-            Input::Entry(Argument::Load, entry) => {
-                self.imports.get(entry.checked_sub(OPAQUE)?).copied()
-            }
-            _ => None,
-        }
+        let Input::Entry(Argument::Load, entry) = input else {
+            return None;
+        };
+        self.imports.get(entry.checked_sub(OPAQUE)?).copied()
     }
 
     pub(super) fn of(rolled: &LimbRows<'_>, limbs: &mut Limbs, base: usize) -> Parts {
@@ -57,19 +54,15 @@ impl Parts {
         for id in (0..rolled.dag.nodes.len() as Id).filter(|&id| is_operation(id)) {
             if reads[id as usize] > 0 && rolled.member(id).is_none() {
                 let place = (phases.shared[id as usize], None);
-                contents
-                    .entry(place)
-                    .or_default()
-                    .push(LaneOperand::Shared(id));
+                let values = contents.entry(place).or_default();
+                values.push(LaneOperand::Shared(id));
             }
         }
         for (index, row) in rolled.rows.iter().enumerate() {
             if matches!(row.content, Content::Apply(..)) && constants[index].is_none() {
                 let place = (phases.rows[index], Some(row.class));
-                contents
-                    .entry(place)
-                    .or_default()
-                    .push(LaneOperand::Row(index));
+                let values = contents.entry(place).or_default();
+                values.push(LaneOperand::Row(index));
             }
         }
         let exported = exported(rolled, &phases);
@@ -79,7 +72,7 @@ impl Parts {
             constants,
         };
         let mut places = FxHashMap::default();
-        for ((_, class), values) in contents {
+        for ((_, class), mut exports) in contents {
             let mut writer = PartWriter {
                 rolled,
                 limbs: &mut *limbs,
@@ -90,13 +83,10 @@ impl Parts {
                 builder: Builder::new(Folding::Syntactic),
                 known: FxHashMap::default(),
             };
-            for &value in &values {
+            for &value in &exports {
                 writer.write(value);
             }
-            let exports: Vec<LaneOperand> = values
-                .into_iter()
-                .filter(|value| exported.contains_key(value))
-                .collect();
+            exports.retain(|value| exported.contains(value));
             let outputs = exports.iter().map(|value| writer.known[value]).collect();
             let graph = writer.builder.finish(outputs);
             parts.parts.push(Part {
@@ -110,36 +100,27 @@ impl Parts {
 }
 
 /// The values that other parts or results read.
-fn exported(rolled: &LimbRows<'_>, phases: &Phases) -> FxHashMap<LaneOperand, ()> {
+fn exported(rolled: &LimbRows<'_>, phases: &Phases) -> FxHashSet<LaneOperand> {
     let value = |id: Id| match rolled.member(id) {
         Some(member) => LaneOperand::Row(member.row),
         None => LaneOperand::Shared(id),
     };
-    let mut exported = FxHashMap::default();
+    // Even for what lanes share, odd for rows.
+    let phase = |value: LaneOperand| match value {
+        LaneOperand::Row(row) => phases.rows[row],
+        LaneOperand::Shared(id) => phases.shared[id as usize],
+    };
+    let mut exported = FxHashSet::default();
     for edge in &rolled.dag.outputs {
-        exported.insert(value(edge.node), ());
+        exported.insert(value(edge.node));
     }
     let reads = rolled.dag.reads();
     for (id, node) in (0..).zip(&rolled.dag.nodes) {
         let Some(operands) = node.operands().filter(|_| reads[id as usize] > 0) else {
             continue;
         };
-        let reader = value(id);
-        for operand in operands {
-            let other = value(operand);
-            let is_here = match (reader, other) {
-                (LaneOperand::Row(reader), LaneOperand::Row(other)) => {
-                    phases.rows[reader] == phases.rows[other]
-                }
-                (LaneOperand::Shared(reader), LaneOperand::Shared(other)) => {
-                    phases.shared[reader as usize] == phases.shared[other as usize]
-                }
-                _ => false,
-            };
-            if !is_here {
-                exported.insert(other, ());
-            }
-        }
+        let others = operands.map(value).into_iter();
+        exported.extend(others.filter(|other| phase(*other) != phase(value(id))));
     }
     exported
 }
@@ -152,10 +133,9 @@ struct Phases {
 
 impl Phases {
     fn of(rolled: &LimbRows<'_>, constants: &[Option<Vec<Exact>>]) -> Phases {
-        let mut phases = Phases {
-            shared: vec![0; rolled.dag.nodes.len()],
-            rows: vec![1; rolled.rows.len()],
-        };
+        let shared = vec![0; rolled.dag.nodes.len()];
+        let rows = vec![1; rolled.rows.len()];
+        let mut phases = Phases { shared, rows };
         loop {
             let mut is_stable = true;
             for (id, node) in (0..).zip(&rolled.dag.nodes) {

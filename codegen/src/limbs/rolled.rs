@@ -1,5 +1,4 @@
-//! A graph in which the operations of limbs of one structure are found to be the same: each row of
-//! them is one operation in every lane.
+//! A graph with the operations of limbs of one structure in rows: one operation in every lane.
 
 use dalembert_model::number::Exact;
 use rustc_hash::FxHashMap;
@@ -11,9 +10,7 @@ use crate::program::{Input, Operation};
 /// An operand, or a node as what it is for all lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum LaneOperand {
-    /// One that all lanes share.
     Shared(Id),
-    /// A row.
     Row(usize),
 }
 
@@ -29,7 +26,6 @@ pub(super) enum Content {
 pub(super) struct Row {
     pub class: usize,
     pub content: Content,
-    lanes: usize,
 }
 
 /// A node of a lane is the value of its row, or the negative.
@@ -53,11 +49,8 @@ pub(super) struct LimbRows<'d> {
 impl<'d> LimbRows<'d> {
     /// Nodes that have no fellow in some lane are shared.
     pub(super) fn new(dag: &'d Dag, limbs: &Limbs, base: usize) -> LimbRows<'d> {
-        let mut rolled = LimbRows {
-            dag,
-            rows: Vec::new(),
-            members: vec![None; dag.nodes.len()],
-        };
+        let (rows, members) = (Vec::new(), vec![None; dag.nodes.len()]);
+        let mut rolled = LimbRows { dag, rows, members };
         // Fellows are equally deep: their operands are fellows, or the same.
         for level in levels(dag) {
             rolled.level(&level, limbs, base);
@@ -81,20 +74,14 @@ impl<'d> LimbRows<'d> {
             };
             let place = *places.entry((class, content)).or_insert_with(|| {
                 let lanes = limbs.classes[class].len();
-                let row = Row {
-                    class,
-                    content,
-                    lanes,
-                };
-                rows.push((row, vec![None; lanes]));
+                rows.push((Row { class, content }, vec![None; lanes]));
                 rows.len() - 1
             });
             // A second node of the same value is shared.
             rows[place].1[lane].get_or_insert((id, negative));
         }
         for (row, members) in rows {
-            let members: Option<Vec<(Id, bool)>> = members.into_iter().collect();
-            let Some(members) = members else {
+            let Some(members) = members.into_iter().collect::<Option<Vec<_>>>() else {
                 continue;
             };
             for (lane, (id, negative)) in members.into_iter().enumerate() {
@@ -122,11 +109,10 @@ impl<'d> LimbRows<'d> {
         if places.any(|other| other != first) {
             return None;
         }
-        let signed = [0, 1].map(|side| match members[side] {
+        let [mut a, mut b] = [0, 1].map(|side| match members[side] {
             Some(member) => (LaneOperand::Row(member.row), member.negative),
             None => (LaneOperand::Shared(operands[side]), false),
         });
-        let [mut a, mut b] = signed;
         let (operation, negative) = match operation {
             Operation::Mul | Operation::Fused | Operation::Div => (operation, a.1 != b.1),
             Operation::Add | Operation::Sub => {
@@ -134,13 +120,10 @@ impl<'d> LimbRows<'d> {
                 if b.0 < a.0 {
                     (a, b) = (b, a);
                 }
-                let is_sum = a.1 == b.1;
-                let operation = if is_sum {
-                    Operation::Add
-                } else {
-                    Operation::Sub
-                };
-                (operation, a.1)
+                match a.1 == b.1 {
+                    true => (Operation::Add, a.1),
+                    false => (Operation::Sub, a.1),
+                }
             }
         };
         if operation.commutes() && b.0 < a.0 {
@@ -167,14 +150,14 @@ impl<'d> LimbRows<'d> {
             };
             let number = |lane: usize| match &row.content {
                 Content::Input(input) => {
-                    let tuple = limbs.tuple_of(*input)?;
-                    Some(limbs.tuples[tuple].1[lane].clone())
+                    Some(limbs.tuples[limbs.tuple_of(*input)?].1[lane].clone())
                 }
                 Content::Apply(operation, [a, b]) => {
                     operation.exactly(&value(a, lane)?, &value(b, lane)?)
                 }
             };
-            constants.push((0..row.lanes).map(number).collect());
+            let lanes = limbs.classes[row.class].len();
+            constants.push((0..lanes).map(number).collect());
         }
         constants
     }

@@ -27,8 +27,7 @@ pub(super) struct LanePlace {
 /// Limbs of one structure: of each the places of its links in the chain.
 pub(super) type Class = Vec<Vec<usize>>;
 
-/// Lists the limbs that have the same joints in the same order, hang on the same link, and have
-/// zeros in the same places.
+/// Lists limbs that hang on one link, with the same joints in order, and zeros in the same places.
 pub(super) fn classes(chain: &Chain<Exact>) -> Vec<Class> {
     let mut classes: Vec<Class> = Vec::new();
     let mut inside = vec![false; chain.links.len()];
@@ -56,10 +55,20 @@ pub(super) fn classes(chain: &Chain<Exact>) -> Vec<Class> {
 }
 
 fn limb(chain: &Chain<Exact>, root: usize) -> Vec<usize> {
-    let links = 0..chain.links.len();
-    links
-        .filter(|&i| chain.way(i).any(|link| link == root))
-        .collect()
+    let is_carried = |&i: &usize| chain.way(i).any(|link| link == root);
+    (0..chain.links.len()).filter(is_carried).collect()
+}
+
+/// Lists the links of limbs, each with its place.
+fn places(classes: &[Class]) -> Vec<(usize, LanePlace)> {
+    let mut places = Vec::new();
+    for (class, limbs) in classes.iter().enumerate() {
+        for (lane, limb) in limbs.iter().enumerate() {
+            let links = limb.iter().enumerate();
+            places.extend(links.map(|(link, &i)| (i, LanePlace { class, lane, link })));
+        }
+    }
+    places
 }
 
 /// Each link's joint, the place of the link that carries it, whether its frame may stay behind, the
@@ -69,9 +78,8 @@ type Structure = Vec<(JointKind, Option<usize>, bool, i32, Vec<bool>)>;
 fn structure(chain: &Chain<Exact>, limb: &[usize]) -> Structure {
     let of_link = |&i: &usize| {
         let link = &chain.links[i];
-        let parent = link
-            .parent
-            .and_then(|parent| limb.binary_search(&parent).ok());
+        let place = |parent: usize| limb.binary_search(&parent).ok();
+        let parent = link.parent.and_then(place);
         let zeros = numbers(link).iter().map(Scalar::is_zero).collect();
         (link.kind, parent, link.spins_freely, link.axes, zeros)
     };
@@ -95,8 +103,7 @@ fn numbers(link: &ChainLink<Exact>) -> Vec<Exact> {
     numbers.split_off(3)
 }
 
-/// The limbs of a chain, with its numbers: those of the links of a limb that differ from lane to lane
-/// are entries of tuples.
+/// The limbs of a chain; numbers of links that differ from lane to lane are entries of tuples.
 pub(super) struct Limbs {
     pub classes: Vec<Class>,
     /// Numbers that differ, one a lane, with the class of the lanes.
@@ -115,14 +122,9 @@ impl Limbs {
         let (robot, rows) = (setup.robot(), setup.chained_rows());
         let base = robot.base_coordinates();
         let mut joints = BTreeMap::new();
-        for (class, limbs) in classes.iter().enumerate() {
-            for (lane, limb) in limbs.iter().enumerate() {
-                for (link, &i) in limb.iter().enumerate() {
-                    let joint = robot.mover_of(rows[base + i] - base);
-                    let place = LanePlace { class, lane, link };
-                    joints.entry(joint).or_insert(place);
-                }
-            }
+        for (i, place) in places(&classes) {
+            let joint = robot.mover_of(rows[base + i] - base);
+            joints.entry(joint).or_insert(place);
         }
         Limbs {
             classes,
@@ -131,16 +133,9 @@ impl Limbs {
         }
     }
 
-    fn place(&self, link: usize) -> Option<LanePlace> {
-        let limbs = self.classes.iter().enumerate().flat_map(|(class, limbs)| {
-            let lanes = limbs.iter().enumerate();
-            lanes.map(move |(lane, limb)| (class, lane, limb))
-        });
-        let mut places = limbs.filter_map(|(class, lane, limb)| {
-            let link = limb.binary_search(&link).ok()?;
-            Some(LanePlace { class, lane, link })
-        });
-        places.next()
+    fn joint(&self, place: LanePlace) -> Option<usize> {
+        let mut joints = self.joints.iter();
+        joints.find_map(|(joint, other)| (*other == place).then_some(*joint))
     }
 
     /// Returns the input in which lane 0 of a class reads what a lane reads as this one, with the lane;
@@ -152,46 +147,24 @@ impl Limbs {
             Input::Entry(Argument::Position, joint) => joint,
             Input::Entry(Argument::Load, entry) => {
                 let (tuple, lane) = (entry / MAX_LANES, entry % MAX_LANES);
-                let class = self.tuples[tuple].0;
-                let place = LanePlace {
-                    class,
-                    lane,
-                    link: 0,
-                };
-                return Some((place, tuple_input(tuple, 0)));
+                let (class, link) = (self.tuples[tuple].0, 0);
+                return Some((LanePlace { class, lane, link }, tuple_input(tuple, 0)));
             }
-            Input::Entry(
-                Argument::Gravity | Argument::Payload | Argument::Wrench | Argument::Damping,
-                _,
-            ) => return None,
+            Input::Entry(argument, _) if is_shared(argument) => return None,
             Input::Entry(_, coordinate) => coordinate.checked_sub(base)?,
         };
         let place = *self.joints.get(&joint)?;
-        let first = self
-            .joints
-            .iter()
-            .find(|(_, other)| **other == LanePlace { lane: 0, ..place });
-        let first = *first?.0;
-        let input = match input {
-            Input::Sin(_) => Input::Sin(first),
-            Input::Cos(_) => Input::Cos(first),
-            Input::PerSpeed(_) => Input::PerSpeed(base + first),
-            Input::Entry(Argument::Position, _) => Input::Entry(Argument::Position, first),
-            Input::Entry(argument, _) => Input::Entry(argument, base + first),
-        };
-        Some((place, input))
+        // Lane 0 need not have a joint there, where joints follow others.
+        self.joint(LanePlace { lane: 0, ..place })?;
+        Some((place, self.in_lane(input, place.class, 0, base)))
     }
 
     /// Returns the input of a lane that is read as this one in lane 0.
     pub(super) fn in_lane(&self, input: Input, class: usize, lane: usize, base: usize) -> Input {
         let moved = |joint: usize| {
             let place = self.joints.get(&joint).filter(|place| place.class == class);
-            let fellow = place.map(|place| LanePlace { lane, ..*place });
-            let counterpart = self
-                .joints
-                .iter()
-                .find(|(_, place)| Some(**place) == fellow);
-            counterpart.map_or(joint, |(joint, _)| *joint)
+            let fellow = place.and_then(|place| self.joint(LanePlace { lane, ..*place }));
+            fellow.unwrap_or(joint)
         };
         let coordinate = |coordinate: usize| match coordinate.checked_sub(base) {
             Some(joint) => base + moved(joint),
@@ -208,13 +181,7 @@ impl Limbs {
                 Some(tuple) => tuple_input(tuple, lane),
                 None => input,
             },
-            Input::Entry(
-                argument @ (Argument::Gravity
-                | Argument::Payload
-                | Argument::Wrench
-                | Argument::Damping),
-                index,
-            ) => Input::Entry(argument, index),
+            Input::Entry(argument, _) if is_shared(argument) => input,
             Input::Entry(argument, index) => Input::Entry(argument, coordinate(index)),
         }
     }
@@ -248,7 +215,6 @@ impl Limbs {
         (self.tuples.len() - 1, false)
     }
 
-    /// Returns the chain with symbols for its numbers.
     pub(super) fn symbols(
         &mut self,
         chain: &Chain<Exact>,
@@ -258,8 +224,7 @@ impl Limbs {
         let mut count = 0;
         chain.map(|_| count += 1);
         let of_base = count - 1 - of_links.iter().map(Vec::len).sum::<usize>();
-        let places: Vec<Option<LanePlace>> =
-            (0..of_links.len()).map(|link| self.place(link)).collect();
+        let places: BTreeMap<usize, LanePlace> = places(&self.classes).into_iter().collect();
         let links = of_links.iter().enumerate().flat_map(|(link, numbers)| {
             let numbers = 0..numbers.len();
             numbers.map(move |number| (link, number))
@@ -267,14 +232,12 @@ impl Limbs {
         let mut links = std::iter::repeat_n(None, of_base).chain(links.map(Some));
         chain.map(|number| {
             let place = links.next().flatten();
-            let place = place.and_then(|(link, place)| Some((places[link]?, place)));
+            let place = place.and_then(|(link, place)| Some((*places.get(&link)?, place)));
             let Some((lane_place, place)) = place else {
                 return Symbol::constant(number);
             };
-            let limbs = self.classes[lane_place.class].iter();
-            let lanes: Vec<Exact> = limbs
-                .map(|limb| of_links[limb[lane_place.link]][place].clone())
-                .collect();
+            let of_limb = |limb: &Vec<usize>| of_links[limb[lane_place.link]][place].clone();
+            let lanes: Vec<Exact> = self.classes[lane_place.class].iter().map(of_limb).collect();
             if lanes.iter().all(|other| other == number) {
                 return Symbol::constant(number);
             }
@@ -283,6 +246,12 @@ impl Limbs {
             if is_negative { entry.neg() } else { entry }
         })
     }
+}
+
+/// True of arguments that have no entries for joints: every lane reads the same ones.
+fn is_shared(argument: Argument) -> bool {
+    use Argument::{Damping, Gravity, Payload, Wrench};
+    matches!(argument, Gravity | Payload | Wrench | Damping)
 }
 
 /// From here on entries are values of other parts of a program.

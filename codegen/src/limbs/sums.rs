@@ -6,8 +6,7 @@ use super::rolled::LimbRows;
 use crate::dag::{Builder, Dag, Edge, Folding, Id, Node};
 use crate::program::Operation;
 
-/// Returns a graph of the same results: where what lanes share is a sum of several terms of a limb,
-/// these are a sum by themselves.
+/// Returns a graph of the same results: a limb's terms in a shared sum are a sum by themselves.
 pub(super) fn by_limbs(rolled: &LimbRows<'_>) -> Dag {
     let dag = rolled.dag;
     let reads = dag.reads();
@@ -31,8 +30,7 @@ pub(super) fn by_limbs(rolled: &LimbRows<'_>) -> Dag {
             Node::Constant(constant) => builder.constant(constant),
             Node::Input(input) => builder.input(*input),
             Node::Apply(..) if is_sum(id) => {
-                let terms = terms(dag, &is_part, id);
-                sum(&mut builder, rolled, &edges, &terms)
+                sum(&mut builder, rolled, &edges, &terms(dag, &is_part, id))
             }
             Node::Apply(operation, [a, b]) => {
                 builder.apply(*operation, edges[*a as usize], edges[*b as usize])
@@ -41,8 +39,7 @@ pub(super) fn by_limbs(rolled: &LimbRows<'_>) -> Dag {
         edges.push(edge);
     }
     let output = |edge: &Edge| edges[edge.index()].negated_if(edge.negative);
-    let outputs = dag.outputs.iter().map(output).collect();
-    builder.finish(outputs)
+    builder.finish(dag.outputs.iter().map(output).collect())
 }
 
 /// Lists the terms of a sum in their order, each with whether it is subtracted.
@@ -63,7 +60,7 @@ fn terms(dag: &Dag, is_part: &[bool], root: Id) -> Vec<(Id, bool)> {
 
 fn sum(builder: &mut Builder, rolled: &LimbRows<'_>, edges: &[Edge], terms: &[(Id, bool)]) -> Edge {
     let mut limbs: BTreeMap<(usize, usize), Vec<(usize, Edge)>> = BTreeMap::new();
-    let mut shared = Vec::new();
+    let mut summands = Vec::new();
     for (id, negative) in terms {
         let edge = edges[*id as usize].negated_if(*negative);
         match rolled.member(*id) {
@@ -72,25 +69,14 @@ fn sum(builder: &mut Builder, rolled: &LimbRows<'_>, edges: &[Edge], terms: &[(I
                 let place = limbs.entry((class, member.lane)).or_default();
                 place.push((member.row, edge));
             }
-            None => shared.push(edge),
+            None => summands.push(edge),
         }
     }
-    let of_limbs: Vec<Vec<Edge>> = limbs
-        .into_values()
-        .map(|mut terms| {
-            terms.sort_by_key(|(row, _)| *row);
-            let edges: Vec<Edge> = terms.into_iter().map(|(_, edge)| edge).collect();
-            edges
-        })
-        .collect();
-    let total = |builder: &mut Builder, edges: Vec<Edge>| {
-        let mut edges = edges.into_iter();
-        let first = edges.next();
-        first.map(|first| edges.fold(first, |sum, edge| builder.add(sum, edge)))
-    };
-    let mut summands = shared;
-    for terms in of_limbs {
-        summands.extend(total(builder, terms));
+    for mut terms in limbs.into_values() {
+        terms.sort_by_key(|(row, _)| *row);
+        let edges = terms.into_iter().map(|(_, edge)| edge);
+        summands.extend(edges.reduce(|sum, edge| builder.add(sum, edge)));
     }
-    total(builder, summands).unwrap_or_else(|| builder.zero())
+    let total = (summands.into_iter()).reduce(|sum, edge| builder.add(sum, edge));
+    total.unwrap_or_else(|| builder.zero())
 }

@@ -26,19 +26,15 @@ impl Plan {
     /// Returns the text; [`Plan::parse`] reads it back.
     pub fn write(&self) -> String {
         let mut constants = ConstantTable::default();
-        let functions = self
-            .entries
-            .iter()
-            .map(|entry| entry.claimed(&mut constants))
-            .collect();
+        let entries = self.entries.iter();
+        let functions = entries.map(|entry| entry.claimed(&mut constants)).collect();
         let mut document = constants.document(functions);
         document.robot.clone_from(&self.robot);
         document.input.clone_from(&self.input);
         document.write()
     }
 
-    /// Reads a plan. Whatever it says, its programs are proved before use: reading only makes sure
-    /// that they are such.
+    /// Reads a plan: it only makes sure that there are programs, which are proved before use.
     ///
     /// # Errors
     /// The first word that is not as [`Plan::write`] writes it.
@@ -49,25 +45,20 @@ impl Plan {
         }
         let document = Claim::read(text).map_err(refused)?;
         if document.input.is_empty() {
-            return Err(Diagnostic::error(
-                "there is no `input`, the hash of the robot",
-            ));
+            let why = "there is no `input`, the hash of the robot";
+            return Err(Diagnostic::error(why));
         }
-        let constant = |text: &String| {
+        let (mut constants, mut entries) = (Vec::new(), Vec::new());
+        for text in &document.constants {
             let wrong = |error| Diagnostic::error(format!("`{text:.40}`: {error}"));
-            text.parse::<Exact>().map_err(wrong)
-        };
-        let constants = document
-            .constants
-            .iter()
-            .map(constant)
-            .collect::<Result<Vec<Exact>, Diagnostic>>()?;
-        let entries = document.functions.iter().map(|claim| {
+            constants.push(text.parse::<Exact>().map_err(wrong)?);
+        }
+        for claim in &document.functions {
             let wrong = |why: Diagnostic| Diagnostic::error(format!("`{}`: {why}", claim.function));
-            entry(claim, &constants).map_err(wrong)
-        });
+            entries.push(entry(claim, &constants).map_err(wrong)?);
+        }
         Ok(Plan {
-            entries: entries.collect::<Result<_, _>>()?,
+            entries,
             robot: document.robot,
             input: document.input,
         })
@@ -104,7 +95,9 @@ impl Entry {
             floats: exact.floating > 0,
             limbs: limbs(exact),
             rows: exact.rows.iter().map(|row| row + 1).collect(),
-            loops: loops(emitted),
+            loops: (emitted.loops.iter())
+                .map(|block| [block.first, block.rows, block.lanes])
+                .collect(),
             scene: hash,
             load: (self.parameters.as_ref()).map(|key| (key.load, key.hash.clone())),
         };
@@ -133,13 +126,6 @@ fn limbs(program: &Program) -> Vec<usize> {
     starts.map(|joint| joint + 1).collect()
 }
 
-fn loops(program: &Program) -> Vec<[usize; 3]> {
-    let loops = program.loops.iter();
-    loops
-        .map(|block| [block.first, block.rows, block.lanes])
-        .collect()
-}
-
 fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Diagnostic> {
     let unknown = |what: &str, word: &str| Diagnostic::error(format!("`{word:.40}` is no {what}"));
     let planned = (claim.planned.as_ref())
@@ -151,14 +137,11 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Diagnostic
     }
     // Speeds are the robot's, which a plan does not have.
     let floating = if planned.floats { BASE_COORDINATES } else { 0 };
-    let starts = planned.limbs.iter().map(|start| {
-        let start = start.checked_sub(1).filter(|joint| *joint < planned.joints);
-        let bit = start.map(|joint| 1u64 << joint);
-        bit.ok_or_else(|| Diagnostic::error("expected the joints with which limbs begin"))
-    });
     let mut limbs = 0;
-    for start in starts {
-        limbs |= start?;
+    for start in &planned.limbs {
+        let joint = start.checked_sub(1).filter(|joint| *joint < planned.joints);
+        let wrong = || Diagnostic::error("expected the joints with which limbs begin");
+        limbs |= 1u64 << joint.ok_or_else(wrong)?;
     }
     let sizes = Sizes::floating(floating, planned.joints, limbs);
     let mut empty = Program::empty(function, sizes);
@@ -174,11 +157,10 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Diagnostic
     let taken = taken(claim, &mut empty)?;
     let parameters = match (&planned.load, taken.is_empty()) {
         (None, true) => None,
-        (Some((load, hash)), false) if *load <= MAX_LOAD => Some(ParametersKey {
-            taken,
-            load: *load,
-            hash: hash.clone(),
-        }),
+        (Some((load, hash)), false) if *load <= MAX_LOAD => {
+            let (load, hash) = (*load, hash.clone());
+            Some(ParametersKey { taken, load, hash })
+        }
         _ => {
             let why = "expected the load's length and hash where parameters are arguments";
             return Err(Diagnostic::error(why));
@@ -188,15 +170,12 @@ fn entry(claim: &FunctionClaim, constants: &[Exact]) -> Result<Entry, Diagnostic
     let emitted = claim.program(constants).map_err(refused)?;
     let exact = claim.exact(constants).map_err(refused)?;
     let mut program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
-    let loops = planned
-        .loops
-        .iter()
-        .map(|&[first, rows, lanes]| Loop { first, rows, lanes });
-    program.loops = loops.collect();
+    for &[first, rows, lanes] in &planned.loops {
+        program.loops.push(Loop { first, rows, lanes });
+    }
     if !program.has_lanes() {
-        return Err(Diagnostic::error(
-            "a loop whose lanes have different operations",
-        ));
+        let why = "a loop whose lanes have different operations";
+        return Err(Diagnostic::error(why));
     }
     let edited = exact.map(|_| edited(&empty, &emitted)).transpose()?;
     Ok(Entry {
@@ -234,10 +213,8 @@ fn taken(claim: &FunctionClaim, empty: &mut Program) -> Result<Vec<Argument>, Di
 }
 
 fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Diagnostic> {
-    let program = Program {
-        dag: graph(read, Exact::clone, input),
-        ..empty.clone()
-    };
+    let mut program = empty.clone();
+    program.dag = graph(read, Exact::clone, input);
     let sizes = program.sizes();
     let is_own = |input: &Input| match *input {
         Input::Sin(joint) | Input::Cos(joint) => joint < program.joints,
@@ -248,9 +225,9 @@ fn program(empty: &Program, read: &Straight<Exact>) -> Result<Program, Diagnosti
         let why = format!("`{}` is not one of its inputs", input.name());
         return Err(Diagnostic::error(why));
     }
-    let (expected, found) = (program.function.outputs(sizes), program.dag.outputs.len());
-    if found != expected {
-        let why = format!("expected {expected} results, found {found}");
+    let (expected, actual) = (program.function.outputs(sizes), program.dag.outputs.len());
+    if actual != expected {
+        let why = format!("expected {expected} results, found {actual}");
         return Err(Diagnostic::error(why));
     }
     Ok(program)
@@ -264,16 +241,9 @@ fn edited(empty: &Program, emitted: &Straight<Exact>) -> Result<Program, Diagnos
     }
 }
 
-fn pass((name, [mul, add, div, sincos]): &(String, [usize; 4])) -> Option<Pass> {
+fn pass((name, numbers): &(String, [usize; 4])) -> Option<Pass> {
     let name = Pass::NAMES.into_iter().find(|known| known == name)?;
-    Some(Pass {
-        name,
-        counts: Counts {
-            mul: *mul,
-            add: *add,
-            div: *div,
-            sincos: *sincos,
-            ..Counts::default()
-        },
-    })
+    let mut counts = Counts::default();
+    [counts.mul, counts.add, counts.div, counts.sincos] = *numbers;
+    Some(Pass { name, counts })
 }

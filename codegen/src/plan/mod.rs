@@ -26,7 +26,6 @@ pub struct Plan {
     pub entries: Vec<Entry>,
 }
 
-/// One kept program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// The formulation that was asked for.
@@ -78,13 +77,8 @@ impl Entry {
 
     fn key(&self) -> Key<'_> {
         let scene = self.scene.as_ref().map(|scene| scene.name.as_str());
-        (
-            scene,
-            self.program.function,
-            self.start.name(),
-            self.scalar,
-            taken(self.parameters.as_ref()),
-        )
+        let (function, taken) = (self.program.function, taken(self.parameters.as_ref()));
+        (scene, function, self.start.name(), self.scalar, taken)
     }
 }
 

@@ -18,12 +18,10 @@ impl Code {
             (counts[0] == counts[1], "the number of operations differs"),
             (results[0] == results[1], "the number of results differs"),
         ];
-        let differs = parts
-            .into_iter()
-            .find(|(is_equal, _)| !is_equal)
-            .map(|(_, what)| what.to_owned())
-            .or_else(|| self.first_difference(other));
-        differs.map(Diagnostic::error)
+        let different = parts.into_iter().find(|(is_equal, _)| !is_equal);
+        let part = different.map(|(_, what)| what.to_owned());
+        let what = part.or_else(|| self.first_difference(other));
+        what.map(Diagnostic::error)
     }
 
     /// Compares operations and results one by one: equal operations read equal ones before them.
@@ -56,10 +54,7 @@ mod tests {
             input(Argument::Acceleration, 1),
             Node::Apply(Operation::Sub, [2, 3]),
         ];
-        let outputs = vec![Edge {
-            negative: true,
-            node: 4,
-        }];
+        let outputs = vec![Edge::from(4).negated_if(true)];
         Code {
             scalar: ScalarType::F64,
             library: Library::Libm,
@@ -101,10 +96,8 @@ mod tests {
         for (change, words) in changes {
             let mut other = code();
             change(&mut other);
-            let message = code()
-                .difference(&other)
-                .map(|difference| difference.to_string());
-            assert_eq!(message.as_deref(), Some(words));
+            let difference = code().difference(&other).unwrap();
+            assert_eq!(difference.to_string(), words);
         }
         let mut other = code();
         other.dag.nodes.swap(0, 1);

@@ -64,8 +64,7 @@ impl KernelWriter {
     /// Returns Σ c_k·x^k by Horner's scheme; the constant alone is a literal.
     pub(crate) fn horner(&mut self, x: Id, coefficients: &[f64]) -> Id {
         let mut coefficients = coefficients.iter().rev();
-        let first = coefficients.next().copied().unwrap_or(0.0);
-        let mut sum = self.literal(first);
+        let mut sum = self.literal(coefficients.next().copied().unwrap_or(0.0));
         for &c in coefficients {
             sum = self.mul(x, sum);
             // A coefficient that vanishes by symmetry takes no addition.
@@ -77,15 +76,11 @@ impl KernelWriter {
     }
 
     pub(crate) fn kernel(self, need: SinCosUse, results: [Edge; 2]) -> Kernel {
-        let wanted = results
-            .into_iter()
-            .zip([need.sin, need.cos])
-            .filter_map(|(result, is_wanted)| is_wanted.then_some(result));
-        let dag = self.finish(wanted.collect());
-        Kernel {
-            need,
-            dag: dag.map(|literal| *literal, |angle| *angle),
-        }
+        let pairs = results.into_iter().zip([need.sin, need.cos]);
+        let wanted = pairs.filter_map(|(result, is_wanted)| is_wanted.then_some(result));
+        let graph = self.finish(wanted.collect());
+        let dag = graph.map(|literal| *literal, |angle| *angle);
+        Kernel { need, dag }
     }
 }
 
@@ -114,8 +109,7 @@ impl Kernel {
     /// Runs it bit for bit. A result that is not wanted is the angle.
     pub fn run<T: Machine>(&self, angle: T) -> (T, T) {
         let literal = |literal: &Literal| T::literal(literal.0);
-        let results = self.dag.run(&(literal, |_: Angle| angle));
-        let [sin, cos] = self.need.each(results);
+        let [sin, cos] = self.need.each(self.dag.run(&(literal, |_: Angle| angle)));
         (sin.unwrap_or(angle), cos.unwrap_or(angle))
     }
 }

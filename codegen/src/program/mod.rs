@@ -53,8 +53,7 @@ pub struct Program {
     pub loops: Vec<Loop>,
 }
 
-/// Operations that are the same for several lanes: a lane's rows stand together, in the order of the
-/// lanes.
+/// Operations that are the same for several lanes: a lane's rows stand together, lanes in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Loop {
     /// The first, among all operations.
@@ -159,9 +158,8 @@ impl Program {
             let ids: Vec<Id> = self.dag.operations().map(|(id, ..)| id).collect();
             for block in &self.loops {
                 for row in 0..block.rows {
-                    let lanes: Vec<Id> = (0..block.lanes)
-                        .map(|lane| ids[block.first + lane * block.rows + row])
-                        .collect();
+                    let of_lane = |lane: usize| ids[block.first + lane * block.rows + row];
+                    let lanes: Vec<Id> = (0..block.lanes).map(of_lane).collect();
                     let product = |id: &Id| taken[*id as usize].map(|node| cells[node as usize].2);
                     if lanes.iter().any(|id| product(id) != product(&lanes[0])) {
                         lanes.iter().for_each(|id| taken[*id as usize] = None);
@@ -170,22 +168,16 @@ impl Program {
             }
         });
         // A product stands in front of its sum, in the same lane: loops are as long as they were.
-        let program = self.with_code(fused);
-        Program {
-            loops: self.loops.clone(),
-            ..program
-        }
+        let mut program = self.with_code(fused);
+        program.loops.clone_from(&self.loops);
+        program
     }
 
     /// Lists for each node the loop, or the part between two, that it is in, its lane and its row.
     fn cells(&self) -> Vec<(usize, usize, usize)> {
         let mut cells = vec![(0, 0, 0); self.dag.nodes.len()];
         for (place, (id, ..)) in self.dag.operations().enumerate() {
-            let before = self
-                .loops
-                .iter()
-                .filter(|block| block.end() <= place)
-                .count();
+            let before = self.loops.partition_point(|block| block.end() <= place);
             let inside = self.loops.get(before).and_then(|block| block.place(place));
             cells[id as usize] = match inside {
                 Some([lane, row]) => (2 * before + 1, lane, row),
@@ -231,9 +223,7 @@ impl Program {
     /// True if the lanes of each loop have the same operations, on values of their lane or of others.
     pub(crate) fn has_lanes(&self) -> bool {
         let operations: Vec<_> = self.dag.operations().collect();
-        let places: BTreeMap<Id, usize> = (operations.iter().zip(0..))
-            .map(|(operation, i)| (operation.0, i))
-            .collect();
+        let places: BTreeMap<Id, usize> = operations.iter().map(|(id, ..)| *id).zip(0..).collect();
         let mut done = 0;
         self.loops.iter().all(|block| {
             let lanes = block.rows.checked_mul(block.lanes);
@@ -273,7 +263,6 @@ impl Program {
     /// Returns the numbers that the lengths of results follow from; the number of base
     /// parameters is derived from the number of results.
     pub fn sizes(&self) -> Sizes {
-        let rows = self.rows.len();
         let whole = Sizes {
             load: self.load,
             bodies: self.bodies,
@@ -284,7 +273,7 @@ impl Program {
         if let RegressorColumns::Base(_) = self.function.columns() {
             // What a bundle returns beside its regressor is of known lengths.
             let others = self.function.outputs(sizes);
-            sizes.base = self.dag.outputs.len().saturating_sub(others) / rows.max(1);
+            sizes.base = self.dag.outputs.len().saturating_sub(others) / self.rows.len().max(1);
         }
         sizes
     }

@@ -81,14 +81,11 @@ impl<C: Clone, I: Clone> Steps<C, I> {
                 [&step.left, &step.right].map(|operand| place(operand, &places, &mut writer));
             places.push(writer.apply(step.operation, operands));
         }
-        let outputs = self
-            .outputs
-            .iter()
-            .map(|output| Edge {
-                node: place(&output.value, &places, &mut writer),
-                negative: output.negative,
-            })
-            .collect();
+        let mut outputs = Vec::with_capacity(self.outputs.len());
+        for output in &self.outputs {
+            let edge = Edge::from(place(&output.value, &places, &mut writer));
+            outputs.push(edge.negated_if(output.negative));
+        }
         writer.finish(outputs)
     }
 }

@@ -17,10 +17,8 @@ pub(crate) struct Degree {
 
 impl Degree {
     pub(crate) fn new(top: f64) -> Degree {
-        Degree {
-            top,
-            under: Vec::new(),
-        }
+        let under = Vec::new();
+        Degree { top, under }
     }
 
     fn powers(&self, other: &Degree) -> Vec<(Rc<f64>, f64, f64)> {
@@ -58,20 +56,14 @@ impl Scalar for Degree {
             b += (power - in_b) * *divisor;
             under.push((divisor, power));
         }
-        Degree {
-            top: a.max(b),
-            under,
-        }
-    }
-    fn sub(&self, other: &Self) -> Self {
-        self.add(other)
+        let top = a.max(b);
+        Degree { top, under }
     }
     fn mul(&self, other: &Self) -> Self {
         let powers = self.powers(other).into_iter();
-        Degree {
-            top: self.top + other.top,
-            under: powers.map(|(d, a, b)| (d, a + b)).collect(),
-        }
+        let under = powers.map(|(d, a, b)| (d, a + b)).collect();
+        let top = self.top + other.top;
+        Degree { top, under }
     }
     fn neg(&self) -> Self {
         self.clone()

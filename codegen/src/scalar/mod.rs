@@ -21,8 +21,7 @@ use crate::dag::symbol::Symbol;
 use degree::Degree;
 use true_value::TrueValue;
 
-/// A value of one of the scalars. Two values of an expression are of the same scalar, or one of
-/// them is a number.
+/// A value of a scalar. Two values of an expression are of one scalar, or one is a number.
 #[derive(Clone, Debug)]
 pub(crate) enum AnyScalar {
     /// Made of zeros and ones alone: of every scalar.
@@ -238,7 +237,6 @@ impl Erase for Symbol {
     }
 }
 
-/// Leaves as values of any scalar.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AnyLeaves<'a, L>(pub(crate) &'a L);
 
@@ -270,12 +268,9 @@ mod tests {
     fn is_the_same<S: Case + PartialEq + std::fmt::Debug>(x: S, y: S) {
         let half = Rational::new(1.into(), 2.into());
         let values = [x, y, S::of_number(&half)];
-        let numbers = [
-            AnyScalar::one().half(),
-            AnyScalar::one().double().half().half(),
-        ];
         let mut any: Vec<AnyScalar> = values.iter().map(|x| x.clone().any()).collect();
-        any.extend(numbers);
+        let one = AnyScalar::one();
+        any.extend([one.half(), one.double().half().half()]);
         let plain = |place: usize| values[place.min(2)].clone();
         for (i, a) in any.iter().enumerate() {
             for (j, b) in any.iter().enumerate() {

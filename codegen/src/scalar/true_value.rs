@@ -55,10 +55,8 @@ impl TrueValue {
     }
 
     pub(crate) fn exact(value: Wide) -> TrueValue {
-        TrueValue {
-            lost: 0.0,
-            ..TrueValue::rounded(value, 0.0)
-        }
+        let (size, lost) = (value.magnitude(), 0.0);
+        TrueValue { value, size, lost }
     }
 
     /// A value that nothing is known of.
@@ -68,11 +66,8 @@ impl TrueValue {
 
     pub(crate) fn rounded(value: Wide, carried: f64) -> TrueValue {
         let size = value.magnitude();
-        TrueValue {
-            value,
-            size,
-            lost: carried + size,
-        }
+        let lost = carried + size;
+        TrueValue { value, size, lost }
     }
 
     pub(crate) fn constant(constant: &Exact) -> TrueValue {
@@ -123,17 +118,12 @@ impl Scalar for TrueValue {
         TrueValue::rounded(self.value.mul(&other.value), carried)
     }
     fn neg(&self) -> Self {
-        TrueValue {
-            value: self.value.neg(),
-            ..*self
-        }
+        let value = self.value.neg();
+        TrueValue { value, ..*self }
     }
     fn half(&self) -> Self {
-        TrueValue {
-            value: self.value.half(),
-            size: 0.5 * self.size,
-            lost: 0.5 * self.lost,
-        }
+        let (value, size, lost) = (self.value.half(), 0.5 * self.size, 0.5 * self.lost);
+        TrueValue { value, size, lost }
     }
 }
 

@@ -121,8 +121,8 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
         }
     });
     nestings.sort_unstable();
-    for (y, c, outer, (op, ends)) in nestings {
+    for (y, c, outer, (op, [a, b])) in nestings {
         let inner = if op == Operation::Mul { PRODUCT } else { SUM };
-        classes.nest(y, outer, c, inner, ends);
+        classes.nest(y, [outer, inner], [c, a, b]);
     }
 }

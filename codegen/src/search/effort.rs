@@ -1,5 +1,4 @@
-//! The limits of a search: counted in rounds, pairs and moves, never in time, so that the result
-//! is the same on every machine.
+//! The limits of a search, never in time, so that the result is the same on every machine.
 
 use super::extract::Schedule;
 use crate::words::words;
@@ -53,14 +52,6 @@ impl Limits {
 }
 
 impl Effort {
-    /// Returns the rounds of the regrouping's descent.
-    pub fn regrouping_rounds(self) -> usize {
-        match self {
-            Effort::Quick => 1,
-            Effort::Thorough => 3,
-        }
-    }
-
     /// Returns the limits for a program of so many operations. A small one gets many short rounds
     /// of a quick search: a SCARA's torques need some without any gain to come from 71 to 62, and a
     /// long round finds no more in them; the second walk of a tiny one brings the slopes of these

@@ -120,10 +120,8 @@ pub(super) struct LeafPrints<'a> {
 
 impl<'a> LeafPrints<'a> {
     pub(super) fn new(dag: &'a Dag) -> LeafPrints<'a> {
-        LeafPrints {
-            dag,
-            prints: dag.nodes.iter().map(Node::leaf_print).collect(),
-        }
+        let prints = dag.nodes.iter().map(Node::leaf_print).collect();
+        LeafPrints { dag, prints }
     }
 }
 
@@ -135,6 +133,11 @@ fn flip(value: Signed, negative: bool) -> Signed {
 }
 
 pub(super) type Choice = Vec<Option<Way>>;
+
+/// Operations that differ in signs alone.
+pub(super) type Kind = &'static [Operation];
+pub(super) const SUM: Kind = &[Operation::Add, Operation::Sub];
+pub(super) const PRODUCT: Kind = &[Operation::Mul];
 
 #[derive(Default)]
 pub(super) struct Classes {
@@ -186,9 +189,7 @@ impl Classes {
         patterns: impl Iterator<Item = &'p Pattern<ENode>>,
     ) -> Vec<Vec<SearchMatches<'p, ENode>>> {
         self.egraph.rebuild();
-        patterns
-            .map(|pattern| pattern.search(&self.egraph))
-            .collect()
+        patterns.map(|rule| rule.search(&self.egraph)).collect()
     }
 
     fn add_leaf(&mut self, leaf: &Node, print: &Fingerprint) -> Signed {
@@ -324,26 +325,11 @@ impl Classes {
             edge.negated_if(negative)
         };
         let output = |output: &Signed| output.as_ref().map_or(zero, edge);
-        let outputs = self.outputs.iter().map(output).collect();
-        builder.finish(outputs)
+        builder.finish(self.outputs.iter().map(output).collect())
     }
-}
 
-/// Operations that differ in signs alone.
-pub(super) type Kind = &'static [Operation];
-pub(super) const SUM: Kind = &[Operation::Add, Operation::Sub];
-pub(super) const PRODUCT: Kind = &[Operation::Mul];
-
-impl Classes {
-    /// Takes those signs that give the class; the inner value may be new.
-    pub(super) fn nest(
-        &mut self,
-        class: Class,
-        outer: Kind,
-        a: Class,
-        inner: Kind,
-        [b, c]: [Class; 2],
-    ) {
+    /// Adds (b ∘ c) ∘ a to the ways of the class, with those signs that give it; b ∘ c may be new.
+    pub(super) fn nest(&mut self, class: Class, [outer, inner]: [Kind; 2], [a, b, c]: [Class; 3]) {
         for &op in inner {
             let inner = way(op, [b, c]);
             let value = self.way_print(inner).canonical().0;

@@ -1,9 +1,8 @@
 //! Extraction: one way for each class that the outputs need, at the least cost of the whole graph.
 //!
-//! Shared work is paid once, so choosing the cheapest tree for each class makes a shared program
-//! worse. The search starts from the program that came in and keeps the best it has seen. A move
-//! gives one class another way; reference counts give the change in cost, and a move that would
-//! close a circle is refused.
+//! Shared work is paid once, so the cheapest tree for each class makes a shared program worse. The
+//! search starts from the program that came in and keeps the best that it meets. A move gives one
+//! class another way, unless that closes a circle; reference counts give the change in cost.
 
 use std::collections::BTreeMap;
 
@@ -24,19 +23,13 @@ pub struct Schedule {
 impl Schedule {
     /// Creates a schedule of so many moves. Hotter than this destroys a program of 300 operations.
     pub const fn cool(moves: usize) -> Schedule {
-        Schedule {
-            moves,
-            hot: 0.2,
-            cold: 0.04,
-        }
+        let (hot, cold) = (0.2, 0.04);
+        Schedule { moves, hot, cold }
     }
 
     pub(super) const fn hot(moves: usize) -> Schedule {
-        Schedule {
-            moves,
-            hot: 1.0,
-            cold: 0.1,
-        }
+        let (hot, cold) = (1.0, 0.1);
+        Schedule { moves, hot, cold }
     }
 }
 
@@ -45,7 +38,7 @@ const NOTHING: u32 = 0;
 const NONE: u32 = u32::MAX;
 
 /// Leaves have a way that costs nothing; sines read their angle, which costs their evaluation.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct ClassStep {
     cost: u64,
     reads: [u32; 2],
@@ -72,6 +65,7 @@ impl<'a> Extraction<'a> {
     pub(super) fn new(classes: &'a Classes, seed: &Choice) -> Self {
         let ids = classes.ids();
         let mut places = vec![NONE; classes.bound()];
+        let step = |cost, reads, way| ClassStep { cost, reads, way };
         // Nothing, the classes, then the angles.
         let mut ways: Vec<Vec<ClassStep>> = vec![Vec::new(); 1 + ids.len()];
         let mut angles = BTreeMap::new();
@@ -85,28 +79,18 @@ impl<'a> Extraction<'a> {
                 && let Some(angle) = input.angle()
             {
                 let place = angles.entry(angle).or_insert_with(|| {
-                    ways.push(vec![ClassStep {
-                        cost: SINCOS,
-                        ..ClassStep::default()
-                    }]);
+                    ways.push(vec![step(SINCOS, [NOTHING; 2], None)]);
                     ways.len() as u32 - 1
                 });
                 reads = [*place; 2];
             }
-            ways[place].push(ClassStep {
-                reads,
-                ..ClassStep::default()
-            });
+            ways[place].push(step(0, reads, None));
         }
         let count = ways.len();
         for (class, way) in classes.ways() {
             let reads = way.1.map(|id| places[usize::from(id)]);
-            let step = ClassStep {
-                cost: price_of(way.0),
-                reads,
-                way: Some(way),
-            };
-            ways[places[usize::from(class)] as usize].push(step);
+            let place = places[usize::from(class)] as usize;
+            ways[place].push(step(price_of(way.0), reads, Some(way)));
         }
         let mut starts = vec![0u32];
         for steps in &ways {

@@ -31,7 +31,6 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// Every step's name, in order.
     pub const NAMES: [&'static str; 4] = ["traced", "folded", "fingerprints", "search"];
 }
 
@@ -57,11 +56,8 @@ pub fn search(
     accept: &dyn Fn(&Dag) -> bool,
     goes_on: &dyn Fn([usize; 2], &Dag) -> bool,
 ) -> Option<Searched> {
-    let mut merged: Vec<(usize, Dag)> = seeds
-        .iter()
-        .map(|seed| seed.rebuild(Folding::Semantic))
-        .enumerate()
-        .collect();
+    let rebuilt = seeds.iter().map(|seed| seed.rebuild(Folding::Semantic));
+    let mut merged: Vec<(usize, Dag)> = rebuilt.enumerate().collect();
     merged.sort_by_key(|(_, dag)| cost(dag));
     let accepted = merged.iter().position(|(_, dag)| accept(dag));
     let is_strict = accepted.is_some();
@@ -71,11 +67,8 @@ pub fn search(
     };
     let limits = limits(start.counts().operations());
     // What no output needs would only be in the way.
-    let others: Vec<Dag> = seeds
-        .iter()
-        .chain(helpers)
-        .map(|dag| dag.rebuild(Folding::Syntactic))
-        .collect();
+    let graphs = seeds.iter().chain(helpers);
+    let others: Vec<Dag> = graphs.map(|dag| dag.rebuild(Folding::Syntactic)).collect();
     let offers: Vec<LeafPrints> = others.iter().map(LeafPrints::new).collect();
     let mut best = start.clone();
     let rounds = limits.walks * limits.rounds;
@@ -103,11 +96,8 @@ pub fn search(
             }
         }
     }
-    Some(Searched {
-        graph: best,
-        seed,
-        start,
-    })
+    let graph = best;
+    Some(Searched { graph, seed, start })
 }
 
 pub(crate) fn glance(program: &Dag) -> Dag {
@@ -164,7 +154,6 @@ pub fn price(counts: &Counts) -> u64 {
     MUL * mul + ADD * add + DIV * counts.div as u64 + SINCOS * counts.sincos as u64
 }
 
-/// Returns the price of a graph's outputs.
 pub fn cost(dag: &Dag) -> u64 {
     price(&dag.counts())
 }

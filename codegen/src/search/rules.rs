@@ -1,5 +1,4 @@
-//! Algebraic identities, a row each: a pattern, and (?b inner ?c) outer ?a as another way to compute
-//! it.
+//! Algebraic identities, a row each: a pattern, and (?b inner ?c) outer ?a as another way to it.
 //!
 //! Patterns are over values up to sign: ± is a sum or a difference, and fingerprints tell which
 //! signs the right side has. Distribution is no row: it would double the e-graph for every product
@@ -27,14 +26,12 @@ pub(super) fn signed(left: &str) -> Vec<String> {
     texts
 }
 
-static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
+static READ: LazyLock<Vec<(Pattern<ENode>, [Kind; 2])>> = LazyLock::new(|| {
     let mut read = Vec::new();
     for &(name, left, outer, inner) in RULES {
         for text in signed(left) {
-            let pattern = text
-                .parse::<PatternAst<ENode>>()
-                .unwrap_or_else(|why| unreachable!("{name}: {why}"));
-            let mut orders = vec![pattern];
+            let pattern = text.parse::<PatternAst<ENode>>();
+            let mut orders = vec![pattern.unwrap_or_else(|why| unreachable!("{name}: {why}"))];
             for place in (0..orders[0].len()).map(egg::Id::from) {
                 if !orders[0][place].is_leaf() {
                     let mut swapped = orders.clone();
@@ -45,7 +42,7 @@ static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
                 }
             }
             let orders = orders.into_iter();
-            read.extend(orders.map(|left| (Pattern::new(left), outer, inner)));
+            read.extend(orders.map(|left| (Pattern::new(left), [outer, inner])));
         }
     }
     read
@@ -55,25 +52,20 @@ static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
 const GROWTH: usize = 20;
 
 pub(super) fn saturate(classes: &mut Classes, iterations: usize) {
-    let [a, b, c] = ["?a", "?b", "?c"].map(|name| {
+    let variables = ["?a", "?b", "?c"].map(|name| {
         let variable = name.parse::<Var>();
         variable.unwrap_or_else(|why| unreachable!("{name}: {why}"))
     });
     let most = GROWTH * classes.bound();
     for _ in 0..iterations {
         let size = classes.bound();
-        let matches = classes.matches(READ.iter().map(|(left, ..)| left));
-        for (rule_matches, (_, outer, inner)) in matches.into_iter().zip(READ.iter()) {
+        let matches = classes.matches(READ.iter().map(|(left, _)| left));
+        for (rule_matches, (_, kinds)) in matches.into_iter().zip(READ.iter()) {
             for class_match in &rule_matches {
                 for substitution in &class_match.substs {
                     if classes.bound() < most {
-                        classes.nest(
-                            class_match.eclass,
-                            outer,
-                            substitution[a],
-                            inner,
-                            [substitution[b], substitution[c]],
-                        );
+                        let ends = variables.map(|variable| substitution[variable]);
+                        classes.nest(class_match.eclass, *kinds, ends);
                     }
                 }
             }

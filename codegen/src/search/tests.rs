@@ -79,11 +79,8 @@ fn every_choice_of_ways_gives_the_same_values() {
 }
 
 fn choices(classes: &Classes) -> impl Iterator<Item = Choice> {
-    let ways: Vec<(Class, Vec<Way>)> = classes
-        .ids()
-        .iter()
-        .map(|&id| (id, ways_of(classes, id)))
-        .collect();
+    let with_ways = |&id: &Class| (id, ways_of(classes, id));
+    let ways: Vec<(Class, Vec<Way>)> = classes.ids().iter().map(with_ways).collect();
     let count: usize = ways.iter().map(|(_, ways)| ways.len().max(1)).product();
     assert!(count < 100_000, "{count} choices");
     (0..count).map(move |mut index| {
@@ -237,8 +234,7 @@ fn a_way_in_a_circle_is_never_taken() {
         extraction.anneal(SCHEDULE, &mut Random::new(seed));
         assert!(cost_of(&classes, &extraction.choice()).is_some());
     }
-    let least = price_of(Mul) + price_of(Add);
-    assert_eq!(extraction.cost, least);
+    assert_eq!(extraction.cost, price_of(Mul) + price_of(Add));
 }
 
 #[test]

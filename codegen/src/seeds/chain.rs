@@ -45,11 +45,8 @@ pub(crate) fn trace_symbols(
     if setup.takes(function, RuntimeParameter::Gravity) {
         let entry = |axis| Symbol::input(&builder, Input::Entry(Argument::Gravity, axis));
         let gravity_entries = [0, 1, 2].map(entry);
-        let in_frame_0 = setup
-            .arm(Symbol::constant)
-            .with_gravity(&gravity_entries)
-            .gravity;
-        chain.gravity = scaled(&chain.per_unit, &in_frame_0);
+        let arm = setup.arm(Symbol::constant).with_gravity(&gravity_entries);
+        chain.gravity = scaled(&chain.per_unit, &arm.gravity);
         gravity = Some(gravity_entries);
     }
     let arguments = function.arguments();
@@ -64,10 +61,7 @@ pub(crate) fn trace_symbols(
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
     let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &leaves).0);
     let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
-    let among: Vec<_> = following
-        .iter()
-        .filter_map(|follower| follower.among(rows))
-        .collect();
+    let among = following.iter().filter_map(|follower| follower.among(rows));
     let regrouped = Regrouped {
         chain,
         at,
@@ -76,7 +70,7 @@ pub(crate) fn trace_symbols(
         form,
         textbook: arm.as_ref().map(|arm| textbook(arm, &position, &whole)),
         joints: rows,
-        following: &among,
+        following: &among.collect::<Vec<_>>(),
         shared: Default::default(),
     };
     let sizes = setup.sizes(function);
@@ -130,7 +124,7 @@ fn textbook<'a, S>(
 
 /// Returns the moving links, with exact parameters, the base folded.
 pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
-    with_columns(setup, &[])
+    of_arm(setup, setup.arm(Exact::clone), &[])
 }
 
 /// Builds the skeleton of a function: of a regressor with its columns; of one that takes a
@@ -138,20 +132,16 @@ pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
 pub(crate) fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
     let Task { setup, function } = task;
     if !setup.takes_load(function) {
-        return with_columns(setup, &setup.columns(function, Exact::clone));
+        let columns = setup.columns(function, Exact::clone);
+        return of_arm(setup, setup.arm(Exact::clone), &columns);
     }
     let unknowns = setup.unknowns();
     let arm = setup.without_given(setup.arm(Exact::clone));
-    of_arm(setup, &arm, &unknowns.columns).with_values(&unknowns.values())
+    of_arm(setup, arm, &unknowns.columns).with_values(&unknowns.values())
 }
 
-fn with_columns(setup: &Setup, columns: &[Column<Exact>]) -> Skeleton<Exact> {
-    of_arm(setup, &setup.arm(Exact::clone), columns)
-}
-
-fn of_arm(setup: &Setup, arm: &Arm<Exact>, columns: &[Column<Exact>]) -> Skeleton<Exact> {
-    let arm = arm.clone().fold_base();
-    let mut skeleton = Skeleton::with_columns(&arm, &setup.merged(), columns);
+fn of_arm(setup: &Setup, arm: Arm<Exact>, columns: &[Column<Exact>]) -> Skeleton<Exact> {
+    let mut skeleton = Skeleton::with_columns(&arm.fold_base(), &setup.merged(), columns);
     let fitted = setup.fitted_links().unwrap_or_default();
     for (segment, fitted) in skeleton.links.iter_mut().zip(fitted) {
         let link = &mut segment.link;

@@ -42,7 +42,6 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
     }
 }
 
-/// Returns the cheapest regrouping before a search.
 pub(crate) fn tuned(problem: &Tuning<'_>, forms: &[Form]) -> ChainChoice {
     tunings(problem, forms).0
 }
@@ -73,10 +72,8 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
         && let Some(load) = setup.load()
     {
         // The numbers of the load are those of one regrouping, for all functions.
-        return (
-            tune::tune(&arm, load.regrouping.clone(), forms, 0, traced_price),
-            None,
-        );
+        let choice = tune::tune(&arm, load.regrouping.clone(), forms, 0, traced_price);
+        return (choice, None);
     }
     let start = tune::start(&arm);
     let with = |axes: Vec<i32>| {
@@ -107,19 +104,15 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
         true => u64::MAX,
         false => traced_price(chain, form, below),
     };
+    let rounds = if effort == Effort::Quick { 1 } else { 3 };
     let descend = |from: Regrouping<Exact>| {
-        let mut choice = tune::tune(&arm, from, forms, effort.regrouping_rounds(), watched_price);
+        let mut choice = tune::tune(&arm, from, forms, rounds, watched_price);
         choice.price = quick_price(&Chain::new(&arm, &choice.regrouping), choice.form, u64::MAX);
         choice
     };
-    let mut tuned: Option<ChainChoice> = None;
-    for from in starts {
-        let choice = descend(from);
-        if tuned.as_ref().is_none_or(|best| choice.price < best.price) {
-            tuned = Some(choice);
-        }
-    }
-    let mut tuned = tuned.unwrap_or(ChainChoice {
+    let choices = starts.into_iter().map(descend);
+    let cheapest = choices.min_by_key(|choice| choice.price);
+    let mut tuned = cheapest.unwrap_or(ChainChoice {
         regrouping: start,
         form: forms[0],
         price: u64::MAX,
@@ -135,7 +128,7 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
     (tuned, second)
 }
 
-fn with_zero_origins(from: &Regrouping<Exact>) -> Regrouping<Exact> {
+pub(crate) fn with_zero_origins(from: &Regrouping<Exact>) -> Regrouping<Exact> {
     let mut from = from.clone();
     for link in &mut from.links {
         link.origin = zero_vector();

@@ -27,22 +27,16 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
     }
     let full = setup.in_full_motion();
     let task = full.task(Function::InverseDynamics);
-    let forms = task.function.forms();
-    let best = tuned(&Tuning::new(task, Effort::Quick), &forms);
+    let best = tuned(&Tuning::new(task, Effort::Quick), &task.function.forms());
     let chain = Chain::new(&skeleton_for(task), &best.regrouping);
     let (graph, _) = trace_chain(task, &chain, best.form, Folding::Semantic);
     let is_read = |index: usize| {
         let entry = Node::Input(Input::Entry(Argument::Load, index));
         graph.live().any(|(_, node)| *node == entry)
     };
-    let met = unknown_numbers(&chain, &full.unknowns())
-        .into_iter()
-        .enumerate();
-    let read = met
-        .filter(|(index, _)| is_read(*index))
-        .map(|(_, number)| number)
-        .collect();
-    setup.with_load(read, best.regrouping)
+    let met = (0..).zip(unknown_numbers(&chain, &full.unknowns()));
+    let read = met.filter_map(|(index, number)| is_read(index).then_some(number));
+    setup.with_load(read.collect(), best.regrouping)
 }
 
 fn unknown_numbers(chain: &Chain<Exact>, unknowns: &Unknowns) -> Vec<Exact> {
@@ -73,10 +67,8 @@ pub(super) fn symbols(
         return chain.map(Symbol::constant);
     }
     let unknowns = setup.unknowns();
-    let numbers = match setup.load() {
-        Some(load) => load.numbers.clone(),
-        None => unknown_numbers(chain, &unknowns),
-    };
+    let known = setup.load().map(|load| load.numbers.clone());
+    let numbers = known.unwrap_or_else(|| unknown_numbers(chain, &unknowns));
     chain.map(|number| {
         if !unknowns.occur_in(number) {
             return Symbol::constant(number);

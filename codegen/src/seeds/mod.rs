@@ -11,6 +11,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use dalembert_model::equations::Formulation;
+pub(crate) use dalembert_model::equations::chain::Form;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scalar::Scalar;
 
@@ -20,14 +21,11 @@ use crate::function::Argument;
 use crate::program::{Counts, Input};
 use crate::scalar::{AnyLeaves, restored};
 use crate::setup::Task;
-pub(crate) use chain::skeleton_for;
-pub(crate) use chain::{regrouped, trace_symbols};
+pub(crate) use chain::{regrouped, skeleton_for, trace_symbols};
 pub use chain::{skeleton, trace_chain};
 pub(crate) use descent::{Limit, tuned, tunings};
 pub use start::Start;
 pub(crate) use tune::ChainChoice;
-
-pub(crate) use dalembert_model::equations::chain::Form;
 
 /// Longer chains are tuned by the price before the search alone, even if that is thorough.
 const MAX_QUICK_LINKS: usize = 10;
@@ -99,12 +97,10 @@ pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
     let parameters = RuntimeParameter::LOADING.into_iter();
     arguments.extend(parameters.filter_map(RuntimeParameter::given));
     let leaves = (Symbol::constant, reader(&arguments, &builder));
-    let outputs: Vec<Symbol> = restored(task.textbook(formulation, &AnyLeaves(&leaves)));
+    let symbols: Vec<Symbol> = restored(task.textbook(formulation, &AnyLeaves(&leaves)));
     let mut builder = builder.replace(Builder::new(Folding::Syntactic));
-    let outputs = outputs
-        .iter()
-        .map(|output| output.edge(&mut builder))
-        .collect();
+    let edges = symbols.iter().map(|symbol| symbol.edge(&mut builder));
+    let outputs = edges.collect();
     Seed {
         source: Source::Formulation(formulation),
         traced: builder.asked(),

@@ -2,14 +2,13 @@
 //! almost zero, such as the sine between axes that are almost parallel, adds large moments to one
 //! link and takes them from another: exact, and lost to rounding.
 
-use dalembert_model::equations::chain::{Chain, MomentBody, Skeleton};
+use dalembert_model::equations::chain::{Chain, Skeleton};
 use dalembert_model::number::{Exact, Rounded};
 
 /// A moment may be so many times as large as those of what a link carries.
 const MOST: f64 = 1024.0;
 
-/// The moments that a link carries, with those of the link itself, as far as a tolerance has left
-/// them there.
+/// The moments that a link carries, with its own, as far as a tolerance has left them there.
 #[derive(Clone, Copy, Debug, Default)]
 struct LinkMoments {
     /// The sum of masses, kg.
@@ -46,14 +45,10 @@ impl Sizes {
         let length = |x: &[f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         let mut moments = vec![LinkMoments::default(); arm.links.len()];
         for (i, segment) in arm.links.iter().enumerate().rev() {
-            let MomentBody {
-                mass,
-                first,
-                second,
-            } = segment.link.body.map(f64::nearest);
-            moments[i].mass += mass.abs();
-            moments[i].first += length(&first);
-            moments[i].second += (second.xx + second.yy + second.zz).abs();
+            let body = segment.link.body.map(f64::nearest);
+            moments[i].mass += body.mass.abs();
+            moments[i].first += length(&body.first);
+            moments[i].second += (body.second.xx + body.second.yy + body.second.zz).abs();
             let carried = moments[i];
             if let Some(carrier) = segment.link.parent {
                 let offset = segment.link.offset.each_ref().map(f64::nearest);
@@ -129,8 +124,7 @@ mod tests {
             1_000_000 - total.min(900_000.0) as u64
         };
         let forms = Form::all(false, false, false, HandChoice::None);
-        let from = Regrouping::base(&arm);
-        let choice = tune::tune(&arm, from, &forms, 3, price);
+        let choice = tune::tune(&arm, Regrouping::base(&arm), &forms, 3, price);
         let chain = MetricChain::new(&arm, &choice.regrouping).chain;
         assert!(Sizes::of(&arm).admits(&chain));
     }

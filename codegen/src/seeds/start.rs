@@ -80,7 +80,7 @@ pub(crate) struct Approach {
 }
 
 impl Approach {
-    fn of(seeds: Vec<Seed>) -> Approach {
+    pub(crate) fn of(seeds: Vec<Seed>) -> Approach {
         Approach {
             tuned: None,
             seeds,

@@ -4,7 +4,6 @@
 //! link come from what its parameters and its parent's would become: nothing kept, everything kept,
 //! or just as much as makes an entry vanish that would cost operations.
 
-use dalembert_model::equations::chain::body::entry;
 use dalembert_model::equations::chain::{
     Chain, ChainLink, LinkRegrouping, MetricChain, MomentBody, Regrouping, Skeleton,
 };
@@ -26,7 +25,6 @@ const MAX_TUNED: usize = 64;
 #[derive(Clone, Debug)]
 pub struct ChainChoice {
     pub regrouping: Regrouping<Exact>,
-    /// The cheapest form in it.
     pub form: Form,
     pub price: u64,
 }
@@ -63,11 +61,7 @@ pub fn start(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 fn carried_by(arm: &Skeleton<Exact>, root: Option<usize>) -> (Skeleton<Exact>, Vec<usize>) {
     let mut part = Skeleton {
         gravity: arm.gravity.clone(),
-        base: if root.is_none() {
-            arm.base.clone()
-        } else {
-            None
-        },
+        base: arm.base.clone().filter(|_| root.is_none()),
         base_probes: Vec::new(),
         columns: arm.columns,
         links: Vec::new(),
@@ -159,11 +153,8 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> RegroupingDescent<'_, P> {
         };
         among(&|form, best| form.hand == best.hand);
         among(&|form, best| {
-            let counterpart = Form {
-                hand: form.hand,
-                ..best
-            };
-            form != best && form == counterpart
+            let hand = form.hand;
+            form != best && form == Form { hand, ..best }
         });
     }
 
@@ -232,9 +223,7 @@ fn terms(link: &ChainLink<Exact>) -> usize {
 }
 
 fn body_terms(body: &MomentBody<Exact>) -> usize {
-    let second =
-        [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| entry(&body.second, i, j));
-    let constants = second.into_iter().chain(&body.first);
+    let constants = body.second.entries().into_iter().chain(&body.first);
     constants.map(Exact::terms).max().unwrap_or(0)
 }
 
@@ -242,8 +231,7 @@ fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
     a.divide(b.as_rational()?)
 }
 
-/// A moment about its axis that a revolute link may keep: of its regrouping, of a body, and how
-/// much of it besides nothing.
+/// A moment that a revolute link may keep: of its regrouping, of a body, and the amounts.
 type AxisMoment = (
     fn(&mut Link) -> &mut Exact,
     fn(&mut MomentBody<Exact>) -> &mut Exact,
@@ -278,10 +266,8 @@ fn revolute(arm: &Skeleton<Exact>, chain: &Chain<Exact>, now: &Link, i: usize) -
             let mut unit = MomentBody::zero();
             *of_body(&mut unit) = Exact::one();
             let effect = costly(&unit.carried(&link.rotation, &link.offset));
-            let needed = parent
-                .iter()
-                .zip(&effect)
-                .filter_map(|(entry, slope)| quotient(entry, slope));
+            let pairs = parent.iter().zip(&effect);
+            let needed = pairs.filter_map(|(entry, slope)| quotient(entry, slope));
             amounts.extend(needed.map(|more| kept(&mut now.clone()).add(&more)));
         }
         let amounts = amounts.into_iter();
@@ -321,11 +307,9 @@ fn prismatic(chain: &Chain<Exact>, now: &Link, i: usize) -> Vec<Link> {
     if let Ok(centre) = <Vector<Exact>>::try_from(centre) {
         origins.push(shifted(&centre));
     }
-    let origins = origins
-        .into_iter()
-        .map(|origin| changed(now, |link| link.origin = origin));
+    let moved = |origin| changed(now, |link| link.origin = origin);
     let kept = [false, true].map(|kept| changed(now, |link| link.keep_seconds = kept));
-    origins.chain(kept).collect()
+    origins.into_iter().map(moved).chain(kept).collect()
 }
 
 fn costly(body: &MomentBody<Exact>) -> Vec<Exact> {

@@ -24,7 +24,6 @@ impl Setup {
         (0..self.joints()).filter_map(speed).collect()
     }
 
-    /// True if a joint has Coulomb friction.
     pub fn has_coulomb(&self) -> bool {
         self.robot().joints.iter().any(|joint| joint.has_coulomb())
     }

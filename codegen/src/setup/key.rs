@@ -12,14 +12,12 @@ use crate::function::Argument;
 /// so that a scene can be added; an edited scene shows in its own.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SceneKey {
-    /// Its name.
     pub name: String,
     /// Its [`short_hash`](Scene::short_hash).
     pub hash: String,
 }
 
 impl SceneKey {
-    /// Returns the key of a scene.
     pub fn new(scene: &Scene) -> SceneKey {
         SceneKey {
             name: scene.name.clone(),
@@ -44,11 +42,7 @@ impl ParametersKey {
     /// Returns the key of a function; `None` if it takes no parameters as arguments.
     pub fn find(task: Task<'_>) -> Option<ParametersKey> {
         let Task { setup, function } = task;
-        let parameters = RuntimeParameter::ALL.into_iter();
-        let mut taken: Vec<Argument> = parameters
-            .filter(|&parameter| setup.takes(function, parameter))
-            .map(RuntimeParameter::argument)
-            .collect();
+        let mut taken: Vec<Argument> = setup.taken(function).collect();
         taken.sort();
         taken.dedup();
         if taken.is_empty() {
@@ -57,16 +51,17 @@ impl ParametersKey {
         let load = setup.load().filter(|_| taken.contains(&Argument::Load));
         let numbers = load.map_or(&[][..], |load| &load.numbers);
         // Two loads may be the same numbers of other unknowns; a payload's has no more lines than before.
-        let parameter_lines = RuntimeParameter::LOADING
-            .into_iter()
-            .filter(|parameter| load.is_some() && setup.has(*parameter))
-            .filter(|parameter| *parameter != RuntimeParameter::Payload)
-            .map(|parameter| format!("{} {:?}\n", parameter.name(), setup.body_links()));
-        let lines = parameter_lines.chain(numbers.iter().map(|number| format!("{number}\n")));
+        let mut lines = String::new();
+        for parameter in RuntimeParameter::LOADING {
+            if load.is_some() && setup.has(parameter) && parameter != RuntimeParameter::Payload {
+                lines += &format!("{} {:?}\n", parameter.name(), setup.body_links());
+            }
+        }
+        lines.extend(numbers.iter().map(|number| format!("{number}\n")));
         Some(ParametersKey {
             taken,
             load: numbers.len(),
-            hash: short_hash(&lines.collect::<String>()),
+            hash: short_hash(&lines),
         })
     }
 }

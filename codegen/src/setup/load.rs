@@ -12,7 +12,7 @@ use dalembert_model::equations::load::LoadRow;
 use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
 use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::outputs::{Argument, RuntimeParameter};
-use dalembert_model::robot::{Placement, Position};
+use dalembert_model::robot::Position;
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
 use super::Setup;
@@ -44,16 +44,13 @@ impl Setup {
     #[must_use]
     pub fn with_load(self, numbers: Vec<Exact>, regrouping: Regrouping<Exact>) -> Setup {
         let unknowns = self.unknowns();
-        let rows = numbers.iter().map(|number| unknowns.row(number));
-        let load = LoadParameters {
-            rows: rows.collect(),
+        let rows = numbers.iter().map(|number| unknowns.row(number)).collect();
+        let load = Some(LoadParameters {
+            rows,
             numbers,
             regrouping,
-        };
-        Setup {
-            load: Some(load),
-            ..self
-        }
+        });
+        Setup { load, ..self }
     }
 
     /// Returns the parameters that are arguments.
@@ -101,33 +98,23 @@ impl Setup {
 
     fn constant_angles(&self) -> Vec<Angle> {
         let robot = self.robot();
-        let rows = robot
-            .rows()
-            .into_iter()
-            .flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
+        let mut angles: Vec<&Angle> = Vec::new();
+        for row in robot.rows() {
+            angles.extend([&row.alpha, &row.beta, &row.theta]);
+            angles.extend(row.place.iter().flat_map(|place| &place.placement.rpy));
+        }
+        for (_, placement) in robot.placements() {
+            angles.extend(placement.iter().flat_map(|placement| &placement.rpy));
+        }
         let offsets = robot.followers.iter().map(|follower| &follower.offset);
-        let frames = robot
-            .placements()
-            .into_iter()
-            .filter_map(|(.., frame)| frame);
-        let places = robot
-            .rows()
-            .into_iter()
-            .filter_map(|joint| joint.place.as_ref());
-        let frames = frames
-            .chain(places.map(|place| &place.placement))
-            .flat_map(|Placement { rpy, .. }| rpy);
         let locks = self.scene().into_iter().flat_map(|scene| &scene.lock);
-        let positions = offsets
-            .chain(locks.map(|(_, at)| at))
-            .filter_map(|at| match at {
-                Position::Angle(angle) => Some(angle),
-                Position::Length(_) => None,
-            });
-        let angles = rows.chain(positions).chain(frames);
-        angles
-            .flat_map(|angle| [angle.clone(), angle.negate()])
-            .collect()
+        for at in offsets.chain(locks.map(|(_, at)| at)) {
+            if let Position::Angle(angle) = at {
+                angles.push(angle);
+            }
+        }
+        let negative = angles.iter().map(|angle| angle.negate());
+        angles.iter().copied().cloned().chain(negative).collect()
     }
 }
 

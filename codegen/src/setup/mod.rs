@@ -80,7 +80,6 @@ pub(crate) struct FittedLink {
 type Bases = [OnceLock<Result<BaseParameters, Diagnostic>>; Quantity::ALL.len()];
 
 impl Setup {
-    /// Returns the whole robot.
     pub fn whole(robot: &Robot) -> Setup {
         let n = robot.joints.len();
         Setup {
@@ -98,10 +97,7 @@ impl Setup {
         }
     }
 
-    /// Returns a robot in a scene, if there is one.
-    ///
-    /// # Errors
-    /// Returns the findings of [`Scene::validate`], but for warnings.
+    /// Returns a robot in a scene, if there is one. Fails with the errors of [`Scene::validate`].
     pub fn in_scene(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, Diagnostic> {
         let Some(scene) = scene else {
             return Ok(Setup::whole(robot));
@@ -141,13 +137,10 @@ impl Setup {
             true => self.bodies.clone(),
             false => Vec::new(),
         };
+        let is_kept = bodies == self.bodies;
         Setup {
             parameters: taken.collect(),
-            zeros: if bodies == self.bodies {
-                self.zeros
-            } else {
-                Vec::new()
-            },
+            zeros: if is_kept { self.zeros } else { Vec::new() },
             bodies,
             base: no_bases(),
             load: None,
@@ -158,9 +151,6 @@ impl Setup {
     /// Returns the robot with the bodies of these links alone as arguments, where bodies are: links are
     /// counted from one, a base that floats is zero; all if there are none. Numbers of these that are zero
     /// may stay zero.
-    ///
-    /// # Errors
-    /// There is no such link.
     pub fn taking_bodies(self, links: &[usize], keeps_zeros: bool) -> Result<Setup, Diagnostic> {
         if !self.has(RuntimeParameter::Bodies) {
             return Ok(self);
@@ -178,20 +168,18 @@ impl Setup {
             return Ok(self);
         }
         let known: Vec<usize> = self.rows_with_bodies().collect();
-        let mut bodies = links
-            .iter()
-            .map(|&link| {
-                let row = link
-                    .checked_add(self.robot.base_coordinates())
-                    .and_then(|behind| behind.checked_sub(1));
-                row.filter(|row| known.contains(row)).ok_or_else(|| {
-                    let first = usize::from(self.robot.floating.is_none());
-                    let message = format!("bodies: there is no link {link}");
-                    let last = self.robot.rows().len();
-                    Diagnostic::error(message).with_help(format!("links are {first} to {last}"))
-                })
-            })
-            .collect::<Result<Vec<usize>, Diagnostic>>()?;
+        let mut bodies = Vec::new();
+        for &link in links {
+            let behind = link.checked_add(self.robot.base_coordinates());
+            let row = behind.and_then(|behind| behind.checked_sub(1));
+            let Some(row) = row.filter(|row| known.contains(row)) else {
+                let first = usize::from(self.robot.floating.is_none());
+                let help = format!("links are {first} to {}", self.robot.rows().len());
+                let message = format!("bodies: there is no link {link}");
+                return Err(Diagnostic::error(message).with_help(help));
+            };
+            bodies.push(row);
+        }
         bodies.sort_unstable();
         bodies.dedup();
         Ok(Setup { bodies, ..self })
@@ -203,7 +191,6 @@ impl Setup {
         base.saturating_sub(1)..base + self.robot.rows().len()
     }
 
-    /// Returns which numbers of these bodies stay zero; none if any may be another.
     pub fn zeros(&self) -> &[bool] {
         &self.zeros
     }
@@ -243,33 +230,33 @@ impl Setup {
         full
     }
 
-    /// True if a parameter is an argument.
     pub fn has(&self, parameter: RuntimeParameter) -> bool {
         self.parameters.contains(&parameter)
     }
 
-    /// True if a function takes a parameter as an argument.
     pub fn takes(&self, function: Function, parameter: RuntimeParameter) -> bool {
         self.has(parameter) && function.depends_on(parameter)
     }
 
-    /// True if functions take some parameter by their load.
-    pub fn has_load(&self) -> bool {
-        self.parameters
-            .iter()
-            .any(|parameter| RuntimeParameter::LOADING.contains(parameter))
+    fn taken(&self, function: Function) -> impl Iterator<Item = Argument> {
+        let parameters = RuntimeParameter::ALL.into_iter();
+        let taken = parameters.filter(move |&parameter| self.takes(function, parameter));
+        taken.map(RuntimeParameter::argument)
     }
 
-    /// True if a function takes a load.
+    /// True if functions take some parameter by their load.
+    pub fn has_load(&self) -> bool {
+        let mut parameters = RuntimeParameter::LOADING.into_iter();
+        parameters.any(|parameter| self.has(parameter))
+    }
+
     pub fn takes_load(&self, function: Function) -> bool {
         let mut parameters = RuntimeParameter::LOADING.into_iter();
         parameters.any(|parameter| self.takes(function, parameter))
     }
 
-    /// True if a function takes any parameter as an argument.
     pub fn takes_any(&self, function: Function) -> bool {
-        let mut parameters = RuntimeParameter::ALL.into_iter();
-        function == Function::Load || parameters.any(|parameter| self.takes(function, parameter))
+        function == Function::Load || self.taken(function).next().is_some()
     }
 
     /// Returns the robot with the scene's payload and gravity, the box as its limits.
@@ -293,7 +280,6 @@ impl Setup {
             && self.locks.iter().all(Option::is_none)
     }
 
-    /// Returns n, the number of joints.
     pub fn joints(&self) -> usize {
         self.robot.joints.len()
     }
@@ -321,13 +307,10 @@ impl Setup {
         (0..base).chain(rows.map(|row| base + row)).collect()
     }
 
-    /// Returns the locks that merge links, one for each row of the arm: those of joints without a
-    /// torque to show.
+    /// Returns the locks that merge links, one a row of the arm: of joints without a torque to show.
     pub fn merged(&self) -> Vec<Option<JointPosition<Exact>>> {
-        let merges = |(i, lock): (usize, &Option<_>)| match self.chained.contains(&i) {
-            true => None,
-            false => lock.clone(),
-        };
+        let is_chained = |i: usize| self.chained.contains(&i);
+        let merges = |(i, lock): (usize, &Option<_>)| lock.clone().filter(|_| !is_chained(i));
         let base = std::iter::repeat_n(None, self.robot.base_coordinates());
         let locks = self.locks.iter().enumerate().map(merges);
         let mut merged: Vec<_> = base.chain(locks).collect();
@@ -342,7 +325,6 @@ impl Setup {
         merged
     }
 
-    /// The position a joint is locked at.
     pub fn lock(&self, joint: usize) -> Option<&JointPosition<Exact>> {
         self.locks.get(joint).and_then(Option::as_ref)
     }
@@ -350,17 +332,13 @@ impl Setup {
     /// Returns the arguments that a function keeps: rates that are zero need none.
     pub fn arguments(&self, function: Function) -> Vec<Argument> {
         let candidates = function.arguments().into_iter();
-        let is_there = |argument: Argument| {
+        let is_there = |argument: &Argument| {
             let mut loading = RuntimeParameter::LOADING.into_iter();
-            let parameter = loading.find(|parameter| parameter.given() == Some(argument));
-            parameter.is_none_or(|parameter| self.has(parameter)) && !self.has_zero(argument)
+            let parameter = loading.find(|parameter| parameter.given() == Some(*argument));
+            parameter.is_none_or(|parameter| self.has(parameter)) && !self.has_zero(*argument)
         };
-        let mut arguments: Vec<Argument> =
-            candidates.filter(|&argument| is_there(argument)).collect();
-        let taken = RuntimeParameter::ALL
-            .into_iter()
-            .filter(|&parameter| self.takes(function, parameter));
-        arguments.extend(taken.map(RuntimeParameter::argument));
+        let mut arguments: Vec<Argument> = candidates.filter(is_there).collect();
+        arguments.extend(self.taken(function));
         arguments.sort();
         arguments.dedup();
         arguments
@@ -423,10 +401,7 @@ impl Setup {
         base.as_ref()
     }
 
-    /// Returns the base parameters that a function is over, if it is over any.
-    ///
-    /// # Errors
-    /// As of [`Setup::base`].
+    /// Returns the base parameters that a function is over, if it is over any; fails as [`Setup::base`].
     pub fn base_of(&self, function: Function) -> Result<Option<&BaseParameters>, &Diagnostic> {
         match function.columns() {
             RegressorColumns::Base(quantity) => self.base(quantity).map(Some),
@@ -472,9 +447,8 @@ impl Setup {
     pub fn limbs(&self) -> Vec<Vec<usize>> {
         let limbs = Sizes::of(&self.robot).of_limbs(&self.rows).into_iter();
         let joint = |place: usize| self.robot.joint_of(self.rows[place]);
-        limbs
-            .map(|places| places.into_iter().filter_map(joint).collect())
-            .collect()
+        let joints = |places: Vec<usize>| places.into_iter().filter_map(joint).collect();
+        limbs.map(joints).collect()
     }
 
     fn arm_row(&self, coordinate: usize) -> usize {
@@ -500,9 +474,7 @@ impl Setup {
 }
 
 fn always_taken(robot: &Robot) -> impl Iterator<Item = RuntimeParameter> {
-    (robot.floating.is_some())
-        .then_some(RuntimeParameter::Gravity)
-        .into_iter()
+    robot.floating.iter().map(|_| RuntimeParameter::Gravity)
 }
 
 fn no_bases() -> Bases {
@@ -511,24 +483,21 @@ fn no_bases() -> Bases {
 
 fn motion<S: Scalar>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
     let joints = || robot.joints.iter().enumerate();
-    let q: Vec<JointPosition<S>> = joints()
-        .map(|(i, joint)| match joint.kind {
-            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-                sin: input(Input::Sin(i)),
-                cos: input(Input::Cos(i)),
-            }),
-            JointKind::Prismatic => {
-                JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
-            }
-        })
-        .collect();
     let base = robot.base_coordinates();
-    let q = base_position().into_iter().take(base).chain(q).collect();
+    let positions = joints().map(|(i, joint)| match joint.kind {
+        JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+            sin: input(Input::Sin(i)),
+            cos: input(Input::Cos(i)),
+        }),
+        JointKind::Prismatic => {
+            JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
+        }
+    });
+    let of_base = base_position().into_iter().take(base);
+    let q = of_base.chain(positions).collect();
     let speeds = joints().map(|(i, joint)| {
-        let coordinate = robot.base_coordinates() + i;
-        joint
-            .has_coulomb()
-            .then(|| input(Input::PerSpeed(coordinate)))
+        let speed = Input::PerSpeed(base + i);
+        joint.has_coulomb().then(|| input(speed))
     });
     let none = std::iter::repeat_with(|| None).take(base);
     let per_speed = none.chain(speeds).collect();

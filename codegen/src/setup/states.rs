@@ -34,13 +34,11 @@ impl Setup {
             state.bodies = bodies.flat_map(|_| body(&mut draw, mass, length)).collect();
             for (argument, _) in self.drives() {
                 // As a large drive has it: no more than the links.
-                let most = if argument == Argument::Armature {
-                    mass * length * length / 16.0
-                } else {
-                    2.0
+                let most = match argument {
+                    Argument::Armature => mass * length * length / 16.0,
+                    _ => 2.0,
                 };
-                let drawn = draw(most).abs();
-                state.entries_mut(argument).push(drawn);
+                state.entries_mut(argument).push(draw(most).abs());
             }
             if self.has_load() {
                 state.load = self.load_at(state);
@@ -65,10 +63,9 @@ impl Setup {
     pub fn load_at(&self, state: &JointState) -> Vec<f64> {
         let entry = |input| {
             let number = match input {
-                Input::Entry(argument, index) => state.entries(argument).get(index),
+                Input::Entry(argument, index) => Rational::from_float(state.entry(argument, index)),
                 Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => None,
             };
-            let number = number.and_then(|x| Rational::from_float(*x));
             number.map_or_else(Exact::zero, Exact::from)
         };
         let load = self.loading(entry, Exact::clone).load();
@@ -76,19 +73,16 @@ impl Setup {
     }
 
     fn heaviest(&self) -> f64 {
-        let masses = self
-            .robot()
-            .bodies()
-            .map(|body| f64::nearest_rational(&body.mass));
+        let bodies = self.robot().bodies();
+        let masses = bodies.map(|body| f64::nearest_rational(&body.mass));
         positive(masses.fold(0.0, f64::max))
     }
 
     fn longest(&self) -> f64 {
         let joints = self.robot().joints.iter();
-        let lengths = joints
-            .flat_map(|joint| [&joint.a, &joint.d])
-            .map(|x| f64::nearest_rational(x).abs());
-        positive(lengths.fold(0.0, f64::max))
+        let lengths = joints.flat_map(|joint| [&joint.a, &joint.d]);
+        let sizes = lengths.map(|x| f64::nearest_rational(x).abs());
+        positive(sizes.fold(0.0, f64::max))
     }
 }
 
@@ -104,9 +98,5 @@ fn body(draw: &mut impl FnMut(f64) -> f64, mass: f64, length: f64) -> Vec<f64> {
     let size = mass * length * length / 64.0;
     let moments = [(); 3].map(|()| f64::from((size * 0.75 + draw(size / 4.0)) as f32));
     let products = [(); 3].map(|()| draw(size / 20.0));
-    let mut numbers = vec![mass];
-    numbers.extend(centre);
-    numbers.extend(moments);
-    numbers.extend(products);
-    numbers
+    [&[mass][..], &centre, &moments, &products].concat()
 }

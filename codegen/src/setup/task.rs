@@ -17,9 +17,7 @@ use crate::program::{Input, Literal, Program, ScalarType};
 /// A function of a robot in its scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
-    /// The robot in its scene.
     pub setup: &'a Setup,
-    /// The function.
     pub function: Function,
 }
 
@@ -30,7 +28,6 @@ pub struct TaskArm<'a, S> {
     /// The arm: gravity, bodies and drives as the arguments say, and the payload on the last link, where
     /// the function takes them.
     pub arm: Arm<S>,
-    /// Its motion.
     pub motion: Motion<S>,
     /// The columns of the regressor.
     pub columns: Vec<Column<S>>,
@@ -80,10 +77,8 @@ impl<'a> Task<'a> {
         columns: Vec<Column<L::Value>>,
     ) -> TaskArm<'a, L::Value> {
         let Task { setup, function } = *self;
-        let (input, constant) = (
-            |input| leaves.input(input),
-            |constant: &Exact| leaves.constant(constant),
-        );
+        let input = |input| leaves.input(input);
+        let constant = |constant: &Exact| leaves.constant(constant);
         let mut motion = setup.motion(input, constant);
         if setup.takes_load(function) {
             setup.drive(&mut arm, input);
@@ -118,7 +113,6 @@ impl<'a> Task<'a> {
 }
 
 impl Setup {
-    /// Returns one of its functions.
     pub fn task(&self, function: Function) -> Task<'_> {
         Task {
             setup: self,
@@ -136,19 +130,12 @@ impl Setup {
         mut input: impl FnMut(Input) -> S,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> LoadArguments<S> {
-        let rows = self
-            .load()
-            .map_or(&[][..], |load| &load.rows)
-            .iter()
-            .map(|row| row.map(&mut constant))
-            .collect();
+        let loads = self.load().map_or(&[][..], |load| &load.rows).iter();
+        let rows = loads.map(|row| row.map(&mut constant)).collect();
         let mut bodies = self.given_bodies(&mut input, &mut constant);
         bodies.extend(self.given_payload(&mut input, &mut constant));
-        let drives = self
-            .drives()
-            .map(|(argument, place)| input(Input::Entry(argument, place)))
-            .collect();
-        LoadArguments::new(&bodies, drives, rows)
+        let drive = |(argument, place)| input(Input::Entry(argument, place));
+        LoadArguments::new(&bodies, self.drives().map(drive).collect(), rows)
     }
 
     /// Returns the bodies that are arguments, each in the frame of its row.
@@ -182,36 +169,29 @@ impl Setup {
         if !self.has(RuntimeParameter::Payload) {
             return None;
         }
-        let frame = self
-            .robot()
-            .payload_frame
-            .as_ref()
-            .map(|placement| exact_pose(placement).map(constant));
-        Some(carried(
-            &numbers(Argument::Payload, 0, input),
-            frame.as_ref(),
-        ))
+        let placement = self.robot().payload_frame.as_ref();
+        let frame = placement.map(|placement| exact_pose(placement).map(constant));
+        let numbers = numbers(Argument::Payload, 0, input);
+        Some(carried(&numbers, frame.as_ref()))
     }
 
     /// Lists the entries of drives that are arguments: armatures, then viscous friction, row by row.
     pub(super) fn drives(&self) -> impl Iterator<Item = (Argument, usize)> {
         let rows = self.robot().rows().len();
-        let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous]
-            .into_iter()
-            .filter(|parameter| self.has(*parameter));
-        let arguments = drives.filter_map(RuntimeParameter::given);
+        let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous].into_iter();
+        let taken = drives.filter(|parameter| self.has(*parameter));
+        let arguments = taken.filter_map(RuntimeParameter::given);
         arguments.flat_map(move |argument| (0..rows).map(move |row| (argument, row)))
     }
 
     /// Returns the values that the robot file has for a parameter that `load` takes, rounded: bodies
     /// are in the frames of their links.
     pub(crate) fn defaults(&self, parameter: RuntimeParameter, scalar: ScalarType) -> Vec<Literal> {
-        let values = self.exact_defaults(parameter);
         let literal = |value: &Exact| match is_nothing(value) {
             true => Literal(0.0),
             false => Literal(scalar.round(value)),
         };
-        values.iter().map(literal).collect()
+        self.exact_defaults(parameter).iter().map(literal).collect()
     }
 
     /// Returns the values that the robot file has for a parameter that `load` takes, as doubles.
@@ -307,13 +287,11 @@ impl<S: Divide> TaskArm<'_, S> {
         let entries = quantity.written(&self.written(by, &at, columns));
         let (setup, following) = (self.task.setup, &self.arm.following);
         let rows: Vec<usize> = (0..self.arm.links.len()).collect();
-        let base = columns.len();
-        let sizes = Sizes {
-            base,
-            ..Sizes::of(setup.robot())
-        };
+        let mut sizes = Sizes::of(setup.robot());
+        sizes.base = columns.len();
         let matrix = setup.select(quantity, sizes, &rows, following, entries);
-        matrix.chunks(base.max(1)).map(<[S]>::to_vec).collect()
+        let chunks = matrix.chunks(sizes.base.max(1));
+        chunks.map(<[S]>::to_vec).collect()
     }
 
     /// Returns the results over all joints there are.
@@ -326,10 +304,9 @@ impl<S: Divide> TaskArm<'_, S> {
     pub fn divisors(&self) -> Vec<Vec<S>> {
         let at = self.arm.at(&self.motion.q);
         let written = self.written(Formulation::NewtonEulerLink, &at, &self.columns);
+        let divisor = |quantity: &Quantity| quantity.divisor(&written);
         let quantities = self.task.function.quantities().iter();
-        quantities
-            .map(|quantity| quantity.divisor(&written))
-            .collect()
+        quantities.map(divisor).collect()
     }
 
     /// Returns the results over the scene's rows, from those over all.

@@ -100,31 +100,26 @@ impl Form {
             let lambda = kernel.literal(scalar.round_rational(&lambdas[level]));
             (s, c) = (product, kernel.apply(Operation::Sub, [lambda, squared]));
         }
-        let turned = match self.centre {
-            Centre::Quarter(k) => k.rem_euclid(4),
-            Centre::At(_) => 0,
-        };
         // Over narrow ranges a result may be a constant, whose sign is a literal's: as
         // such it is read back.
         let mut value = |negative, node| match *kernel.node(node) {
             Node::Constant(Literal(x)) if negative => Edge::from(kernel.literal(-x)),
             _ => Edge { node, negative },
         };
-        let results = match turned {
-            0 => [value(false, s), value(false, c)],
-            1 => [value(false, c), value(true, s)],
-            2 => [value(true, s), value(true, c)],
-            _ => [value(true, c), value(false, s)],
+        let quarter = |k: i32| k.rem_euclid(4);
+        let results = match self.centre {
+            Centre::Quarter(k) if quarter(k) == 1 => [value(false, c), value(true, s)],
+            Centre::Quarter(k) if quarter(k) == 2 => [value(true, s), value(true, c)],
+            Centre::Quarter(k) if quarter(k) == 3 => [value(true, c), value(false, s)],
+            _ => [value(false, s), value(false, c)],
         };
         kernel.kernel(need, results)
     }
 
     /// Estimates the error of the form: the fits' errors through the doublings.
     pub fn estimate(&self, fit: &MinimaxFit, need: SinCosUse) -> f64 {
-        let [mut s, mut c] = [
-            fit.tail(Wave::Sin, self.degrees[0]),
-            fit.tail(Wave::Cos, self.degrees[1]),
-        ];
+        let mut s = fit.tail(Wave::Sin, self.degrees[0]);
+        let mut c = fit.tail(Wave::Cos, self.degrees[1]);
         for _ in 0..self.halvings {
             (s, c) = (2.0 * s.max(c), 4.0 * s);
         }

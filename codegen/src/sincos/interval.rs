@@ -17,17 +17,13 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Zero, exactly.
     pub const ZERO: Interval = Interval::point(0.0);
-    /// One, exactly.
     pub const ONE: Interval = Interval::point(1.0);
-    /// Every number.
     pub const ALL: Interval = Interval {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
 
-    /// Returns one number, exactly.
     pub const fn point(x: f64) -> Interval {
         Interval { low: x, high: x }
     }
@@ -52,17 +48,14 @@ impl Interval {
         }
     }
 
-    /// Returns the lower end.
     pub fn low(self) -> f64 {
         self.low
     }
 
-    /// Returns the upper end.
     pub fn high(self) -> f64 {
         self.high
     }
 
-    /// Returns the largest |x|.
     pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
@@ -78,17 +71,14 @@ impl Interval {
         (mid - self.low).max(self.high - mid).next_up()
     }
 
-    /// Returns the width, roughly.
     pub fn width(self) -> f64 {
         self.high - self.low
     }
 
-    /// True if a number lies inside.
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }
 
-    /// Returns x²
     pub fn square(self) -> Interval {
         let least = match self.contains(0.0) {
             true => 0.0,
@@ -219,9 +209,12 @@ mod tests {
         Rational::new(n.into(), d.into())
     }
 
+    fn end(x: f64) -> Rational {
+        Rational::from_float(x).unwrap()
+    }
+
     #[test]
     fn rationals_and_squares_are_contained() {
-        let end = |x: f64| Rational::from_float(x).unwrap();
         for (n, d) in [(1, 3), (-2, 7), (5, 1), (-1, 10), (123_456, 789)] {
             let a = ratio(n, d);
             let x = Interval::rational(&a);
@@ -265,8 +258,7 @@ mod tests {
                 Interval::new(a.min(b), a.max(b)).unwrap()
             };
             let (x, y) = (interval(), interval());
-            let inside =
-                |x: Interval| [x.low(), x.high()].map(|x| Rational::from_float(x).unwrap());
+            let ends = |x: Interval| [x.low(), x.high()].map(end);
             for operation in Operation::ALL {
                 let result = operation.apply(&x, &y);
                 if result == Interval::ALL {
@@ -275,15 +267,14 @@ mod tests {
                     continue;
                 }
                 bounded += 1;
-                for a in inside(x) {
-                    for b in inside(y) {
+                for a in ends(x) {
+                    for b in ends(y) {
                         let exact = match operation {
                             Operation::Add => &a + &b,
                             Operation::Sub => &a - &b,
                             Operation::Mul | Operation::Fused => &a * &b,
                             Operation::Div => &a / &b,
                         };
-                        let end = |x: f64| Rational::from_float(x).unwrap();
                         assert!(end(result.low()) <= exact && exact <= end(result.high()));
                     }
                 }

@@ -63,7 +63,6 @@ pub struct AngleKernel {
     pub joint: usize,
     /// The range in which the errors hold, for every float of the scalar.
     pub range: Interval,
-    /// The kind of polynomials, in words.
     pub form: String,
     pub kernel: Kernel,
     pub errors: Errors,

@@ -121,9 +121,9 @@ impl Poly {
             // sum·(centre + radius·y)/2^bits + c, in the units of c.
             sum.push(BigInt::zero());
             for k in (0..sum.len()).rev() {
-                let below = k.checked_sub(1).map(|k| &sum[k] * radius);
                 sum[k] *= centre;
-                if let Some(below) = below {
+                if k > 0 {
+                    let below = &sum[k - 1] * radius;
                     sum[k] += below;
                 }
                 sum[k] >>= bits;
@@ -135,9 +135,7 @@ impl Poly {
         // end as much again is cut.
         let terms = sum.len() as f64;
         let spare = self.exponent.saturating_sub(BITS);
-        for c in &mut sum {
-            *c >>= spare;
-        }
+        sum.iter_mut().for_each(|c| *c >>= spare);
         let poly = Poly {
             coefficients: sum,
             exponent: self.exponent - spare,
@@ -152,12 +150,8 @@ impl Poly {
         for (halvings, c) in self.coefficients.iter().rev().enumerate() {
             let mut next = vec![BigInt::zero(); sum.len() + 1];
             for (k, a) in sum.iter().enumerate() {
-                if k == 0 {
-                    next[1] += a * 2;
-                } else {
-                    next[k + 1] += a;
-                    next[k - 1] += a;
-                }
+                next[k + 1] += a;
+                next[k.abs_diff(1)] += a;
             }
             next[0] += c << halvings;
             sum = next;
@@ -200,15 +194,9 @@ impl Poly {
         while coefficients.last().is_some_and(Zero::is_zero) {
             coefficients.pop();
         }
-        let shared = coefficients
-            .iter()
-            .filter_map(BigInt::trailing_zeros)
-            .min()
-            .unwrap_or(exponent)
-            .min(exponent);
-        for c in &mut coefficients {
-            *c >>= shared;
-        }
+        let zeros = coefficients.iter().filter_map(BigInt::trailing_zeros);
+        let shared = zeros.min().unwrap_or(exponent).min(exponent);
+        coefficients.iter_mut().for_each(|c| *c >>= shared);
         Poly {
             coefficients,
             exponent: exponent - shared,

@@ -162,8 +162,9 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
             _ => (range.low() + k as f64 * width).min(range.high()),
         };
         let cell = Interval::new(end(cell), end(cell + 1)).unwrap_or(range);
-        let ran = ranges(kernel, scalar, cell);
-        let roundoff = |edge: Option<Edge>| edge.map_or(0.0, |edge| error(kernel, &ran, edge));
+        let (values, roundings) = ranges(kernel, scalar, cell);
+        let error = |edge| error(kernel, &values, &roundings, edge);
+        let roundoff = |edge: Option<Edge>| edge.map_or(0.0, error);
         let [sin, cos] = kernel.results().map(roundoff);
         worst.sin = worst.sin.max(sin);
         worst.cos = worst.cos.max(cos);
@@ -171,24 +172,16 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     worst
 }
 
-/// Intervals that hold what is exact and what is computed, and each node's own rounding.
-struct Forward {
-    values: Vec<Interval>,
-    roundings: Vec<f64>,
-}
-
-fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
+/// Returns intervals that hold what is exact and what is computed, and each node's own rounding.
+fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> (Vec<Interval>, Vec<f64>) {
     let u = scalar.unit_roundoff();
-    let mut ran = Forward {
-        values: Vec::with_capacity(kernel.dag.nodes.len()),
-        roundings: Vec::with_capacity(kernel.dag.nodes.len()),
-    };
+    let (mut values, mut roundings): (Vec<Interval>, Vec<f64>) = (Vec::new(), Vec::new());
     for node in &kernel.dag.nodes {
         let (value, rounding) = match node {
             Node::Constant(value) => (Interval::point(value.0), 0.0),
             Node::Input(_) => (angle, 0.0),
             Node::Apply(operation, operands) => {
-                let [x, y] = operands.map(|id| ran.values[id as usize]);
+                let [x, y] = operands.map(|id| values[id as usize]);
                 let (exact, eta) = match operation {
                     Operation::Add | Operation::Sub => (operation.apply(&x, &y), 0.0),
                     Operation::Mul | Operation::Fused if operands[0] == operands[1] => {
@@ -200,18 +193,18 @@ fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
                 (exact.widened(rounding), rounding)
             }
         };
-        ran.values.push(value);
-        ran.roundings.push(rounding);
+        values.push(value);
+        roundings.push(rounding);
     }
-    ran
+    (values, roundings)
 }
 
 /// Returns Σ |adjoint|·rounding for one result.
-fn error(kernel: &Kernel, ran: &Forward, result: Edge) -> f64 {
+fn error(kernel: &Kernel, values: &[Interval], roundings: &[f64], result: Edge) -> f64 {
     let mut adjoints = Vec::new();
-    kernel.dag.adjoints(result.node, &ran.values, &mut adjoints);
+    kernel.dag.adjoints(result.node, values, &mut adjoints);
     let mut sum = Interval::ZERO;
-    for (adjoint, rounding) in adjoints.iter().zip(&ran.roundings).rev() {
+    for (adjoint, rounding) in adjoints.iter().zip(roundings).rev() {
         // Products of zero are rounded outward, too.
         if *adjoint != Interval::ZERO && *rounding != 0.0 {
             sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(*rounding);

@@ -66,8 +66,7 @@ impl GenerateError {
 
     /// Refuses a request for nothing.
     pub fn empty() -> GenerateError {
-        let help = "name an output and a scalar";
-        GenerateError::refused(None, "nothing to generate", help)
+        GenerateError::refused(None, "nothing to generate", "name an output and a scalar")
     }
 
     pub(crate) fn stale_plan(robot: &str) -> GenerateError {
@@ -85,10 +84,8 @@ impl GenerateError {
              make its program anew with `dalembert generate ROBOT --scene {scene} --save-plan` and \
              the effort that it was made with, or delete the plan"
         );
-        GenerateError::Stale(
-            format!("the scene `{scene}`").into(),
-            Diagnostic::error(message),
-        )
+        let shown = format!("the scene `{scene}`");
+        GenerateError::Stale(shown.into(), Diagnostic::error(message))
     }
 
     pub(crate) fn follows(function: Function) -> GenerateError {

@@ -24,7 +24,6 @@ pub struct Job<'a> {
     pub robot: &'a Robot,
     /// The robot in the request's scene, by [`Request::prepare`].
     pub setup: &'a Setup,
-    /// The functions and their options.
     pub request: &'a Request,
 }
 
@@ -38,7 +37,6 @@ impl<'a> Job<'a> {
         Job { request, ..*self }
     }
 
-    /// Returns the tolerance of the scene, if it has one.
     pub fn tolerance(&self) -> Option<&'a Tolerance> {
         self.setup.scene()?.tolerance.as_ref()
     }

@@ -1,6 +1,5 @@
-//! The options of a request: one table, one parser. Macro, build script, command, Python and the
-//! first lines of a generated file give the same text (`Asked`), and a mistake names the option and
-//! the item.
+//! The options of a request: one table, one parser. All ways in and the first lines of a generated
+//! file give the same text (`Asked`), and a mistake names the option and the item.
 
 use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place};
 use dalembert_model::outputs::RuntimeParameter;
@@ -210,12 +209,8 @@ pub static OPTIONS: [OptionRow; 16] = [
         words: RuntimeParameter::known,
         is_list: true,
         set: |draft, item| {
-            add(
-                &mut draft.request.parameters,
-                parse(item)?,
-                PartialEq::eq,
-                item,
-            )
+            let parameters = &mut draft.request.parameters;
+            add(parameters, parse(item)?, PartialEq::eq, item)
         },
     },
     OptionRow {
@@ -321,13 +316,12 @@ impl Request {
             ("bodies", !draft.request.bodies.is_empty()),
             ("keep_zeros", draft.request.keeps_zeros),
         ];
-        for (option, _) in of_bodies
-            .into_iter()
-            .filter(|option| option.1 && !takes_bodies)
-        {
-            let help = "add `parameters: bodies`, or leave this out";
-            let message = "it applies to bodies that are arguments, but none are";
-            report(option, "", Diagnostic::error(message).with_help(help));
+        for (option, is_set) in of_bodies {
+            if is_set && !takes_bodies {
+                let help = "add `parameters: bodies`, or leave this out";
+                let message = "it applies to bodies that are arguments, but none are";
+                report(option, "", Diagnostic::error(message).with_help(help));
+            }
         }
         let scene = draft.scene.as_deref().map(|name| find(scenes, name));
         let scene = scene.transpose().unwrap_or_else(|error| {
@@ -338,11 +332,8 @@ impl Request {
         if has_error && draft.request.sincos != SinCos::Polynomial {
             let message = "only polynomials have an error to choose";
             let help = "add `sincos: polynomial`, or leave this out";
-            report(
-                "sincos_error",
-                "",
-                Diagnostic::error(message).with_help(help),
-            );
+            let problem = Diagnostic::error(message).with_help(help);
+            report("sincos_error", "", problem);
         }
         if !problems.is_empty() {
             return Err(Diagnostics(problems));
@@ -354,17 +345,11 @@ impl Request {
     /// Returns the options that ask for this request; outputs and scalars are named.
     pub fn asked(&self) -> Asked {
         let mut asked = Asked::default();
-        let outputs: Vec<String> = self
-            .functions
-            .iter()
-            .map(|function| function.text())
-            .collect();
+        let texts = self.functions.iter().map(|function| function.text());
+        let outputs: Vec<String> = texts.collect();
         let scalars: Vec<&str> = self.scalars.iter().map(|scalar| scalar.name()).collect();
-        let parameters: Vec<&str> = self
-            .parameters
-            .iter()
-            .map(|parameter| parameter.name())
-            .collect();
+        let names = self.parameters.iter().map(|parameter| parameter.name());
+        let parameters: Vec<&str> = names.collect();
         let bodies: Vec<String> = self.bodies.iter().map(usize::to_string).collect();
         let error = self.sincos_error.map(|error| format!("{error:?}"));
         let scene = self.scene.as_ref().map_or("", |scene| &scene.name);
@@ -458,11 +443,8 @@ mod tests {
         );
         let place = Place::Option("outputs", "hold=inertia+gravty".to_owned());
         assert_eq!(problems.0[2].place, place);
-        let nested =
-            read("outputs: hold = inertia + gravity, servo = hold + jacobian").unwrap_err();
-        assert!(
-            nested.to_string().contains("`hold` is a bundle itself"),
-            "{nested:?}"
-        );
+        let bundles = "outputs: hold = inertia + gravity, servo = hold + jacobian";
+        let nested = read(bundles).unwrap_err().to_string();
+        assert!(nested.contains("`hold` is a bundle itself"), "{nested}");
     }
 }

@@ -33,8 +33,7 @@ words! {
     }
 }
 
-/// A request for code: the functions, and the options that say how they are searched for and
-/// printed.
+/// A request for code: the functions, and the options by which they are searched for and printed.
 ///
 /// ```
 /// use dalembert_codegen::{Effort, Function, Language, Request};
@@ -75,8 +74,7 @@ pub struct Request {
     pub language: Language,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
-    /// Programs that a search goes on from; those of another robot, scene or function are left
-    /// aside.
+    /// Programs that a search goes on from, but for those of another robot, scene or function.
     pub renewed: Option<Plan>,
     /// `true` if a plan beside the robot file is not used.
     pub has_no_plan: bool,
@@ -86,19 +84,16 @@ pub struct Request {
     pub module: Option<String>,
     /// The robot's parameters that functions take as arguments.
     pub parameters: Vec<RuntimeParameter>,
-    /// The links whose bodies are arguments, where bodies are, counted from one, the base zero; all if
-    /// there are none.
+    /// The links whose bodies are arguments, counted from one, the base zero; all if this is empty.
     pub bodies: Vec<usize>,
     /// `true` if numbers of bodies that are zero in the robot file stay zero.
     pub keeps_zeros: bool,
-    /// The robot's use; everything if `None`. Its outputs and
-    /// scalar are defaults that the ways in apply ([`Request::choose`]).
+    /// The robot's use; everything if `None`. [`Request::choose`] applies its outputs and scalar.
     pub scene: Option<Scene>,
     /// `true` if nobody chose a scalar. Then a tolerance takes the cheapest of the scalars that it
     /// admits, and f32 is left out where it cannot hold a constant.
     pub is_scalar_open: bool,
-    /// The options that chose the robot's chain in a model, with their values; none for a robot
-    /// file.
+    /// The options that chose the chain in a model, with their values; none for a robot file.
     pub chain: Vec<(String, String)>,
     /// Units of work that the search for what a tolerance allows may take; it is refused where that
     /// is not enough. They are counted, never timed: the same everywhere. No limit if `None`.
@@ -211,14 +206,12 @@ impl Request {
             if !scene.outputs.is_empty() {
                 self.functions = scene.outputs.clone();
             }
-            match of_scene {
-                Some(SceneScalar::F64) => self.scalars = vec![ScalarType::F64],
-                Some(SceneScalar::F32) => self.scalars = vec![ScalarType::F32],
-                None => {}
-            }
-            if self.is_scalar_open && scene.tolerance.is_some() {
-                self.scalars = ScalarType::ALL.to_vec();
-            }
+            self.scalars = match of_scene {
+                Some(SceneScalar::F64) => vec![ScalarType::F64],
+                Some(SceneScalar::F32) => vec![ScalarType::F32],
+                None if scene.tolerance.is_none() || !self.is_scalar_open => self.scalars,
+                None => ScalarType::ALL.to_vec(),
+            };
             self.scene = Some(scene.clone());
         }
         self.functions = outputs.unwrap_or(self.functions);

@@ -13,7 +13,6 @@ use crate::language::read::Signature;
 use crate::program::{Code, ScalarType};
 use crate::random::Random;
 use crate::setup::Setup;
-use crate::sincos::interval::Interval;
 use crate::states::JointState;
 use crate::verify::truth::Reference;
 
@@ -28,7 +27,7 @@ const NEIGHBOURS: usize = 16;
 const LAST: [f64; 4] = [1e-3, 1e-4, 1e-5, 3e-6];
 
 /// The largest errors that were seen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attempt {
     /// One a result, relative to its T; none at no state.
     pub observed: Option<Vec<f64>>,
@@ -37,9 +36,6 @@ pub struct Attempt {
 }
 
 /// Runs a variant at so many states, and climbs so often for each result.
-///
-/// # Errors
-/// A text that cannot be read.
 pub fn attempt(
     setup: &Setup,
     variant: &Variant,
@@ -84,30 +80,23 @@ pub fn attempt(
         }
         climbed.sort_by(|a, b| b.1.total_cmp(&a.1));
         climbed.truncate(TOPS);
-        let climbed = climbed.into_iter();
-        top.extend(climbed.map(|(state, _)| run.in_last_bits(output, state, &mut random)));
+        let last = |(state, _)| run.last_bits(output, state, &mut random);
+        top.extend(climbed.into_iter().map(last));
     }
     let reference = Reference::new(setup);
-    let mut attempt = Attempt {
-        observed: None,
-        violation: None,
-    };
+    let mut attempt = Attempt::default();
     for (output, top) in tops.iter().enumerate() {
         let [scale, bound] = [variant.scales[output], variant.bounds[output].total()];
         for (_, state) in top {
             let state = held(state, variant.scalar, limits);
-            let truth = reference.run_program(&variant.exact, &state);
-            let error = truth
-                .and_then(|true_values| {
-                    let result = run.emitted.run_at(&state).get(output).copied();
-                    Some(true_values.get(output)?.error(result.unwrap_or(f64::NAN)))
-                })
-                .unwrap_or(f64::INFINITY);
-            let error = if error == 0.0 { 0.0 } else { error / scale };
-            let observed = attempt
-                .observed
-                .get_or_insert_with(|| vec![0.0; tops.len()]);
-            observed[output] = observed[output].max(error);
+            let result = run.emitted.run_at(&state).get(output).copied();
+            let truths = reference.run_program(&variant.exact, &state);
+            let truth = truths.as_ref().and_then(|truths| truths.get(output));
+            let size = truth.map_or(f64::INFINITY, |x| x.error(result.unwrap_or(f64::NAN)));
+            let error = if size == 0.0 { 0.0 } else { size / scale };
+            let observed = &mut attempt.observed;
+            let most = observed.get_or_insert_with(|| vec![0.0; tops.len()]);
+            most[output] = most[output].max(error);
             if error > bound && attempt.violation.is_none() {
                 attempt.violation = Some((output, state));
             }
@@ -140,26 +129,18 @@ impl VariantCode<'_> {
             true => (x - y).abs(),
             false => f64::INFINITY,
         };
-        let columns = emitted.iter().zip(&exact);
-        columns
-            .map(|(x, y)| x.iter().zip(y).map(error).collect())
-            .collect()
+        let column = |(x, y): (&Vec<f64>, &Vec<f64>)| x.iter().zip(y).map(error).collect();
+        emitted.iter().zip(&exact).map(column).collect()
     }
 
     /// Climbs by steps so small that what roundings have in common is all that changes.
-    fn in_last_bits(
-        &self,
-        output: usize,
-        from: JointState,
-        random: &mut Random,
-    ) -> (f64, JointState) {
+    fn last_bits(&self, output: usize, from: JointState, random: &mut Random) -> (f64, JointState) {
         let limits = &self.variant.limits;
         let mut best = (0.0, from);
         for step in 0..LAST_MOVES {
             let reach = LAST[step % LAST.len()];
-            let neighbours =
-                (0..NEIGHBOURS).map(|k| nudged(limits, &best.1, reach, 1 + k % 3, random));
-            let states: Vec<JointState> = neighbours.collect();
+            let near = |k: usize| nudged(limits, &best.1, reach, 1 + k % 3, random);
+            let states: Vec<JointState> = (0..NEIGHBOURS).map(near).collect();
             let errors = self.errors(&states);
             for (error, state) in errors[output].iter().zip(states) {
                 if *error > best.0 {
@@ -201,25 +182,19 @@ fn nudged(
 }
 
 pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
+    let mut held = state.clone();
     if scalar == ScalarType::F64 {
-        return state.clone();
+        return held;
     }
-    let inside = |(&x, range): (&f64, &Interval)| {
-        let near = x as f32;
-        f64::from(match f64::from(near) {
+    for (argument, index) in limits.entries() {
+        let range = limits.of_argument(argument)[index];
+        let x = &mut held.entries_mut(argument)[index];
+        let near = *x as f32;
+        *x = f64::from(match f64::from(near) {
             read if read > range.high() => near.next_down(),
             read if read < range.low() => near.next_up(),
             _ => near,
-        })
-    };
-    let held = JointState::new(|argument| {
-        let ranges = limits.of_argument(argument);
-        let entries = state.entries(argument).iter();
-        entries.zip(ranges).map(inside).collect()
-    });
-    JointState {
-        load: state.load.clone(),
-        payload: state.payload.clone(),
-        ..held
+        });
     }
+    held
 }

@@ -4,15 +4,17 @@
 //! bounds what comes out, text and all, and only that decides: what it refuses gives way to the next
 //! candidate, and in the end nothing is left out.
 
+use dalembert_checker::Fault;
+use dalembert_checker::certify::{Demand, certify};
 use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::scene::{Scale, Tolerance};
 
-use super::bounded::bounded;
+use super::claim::claim_in;
 use super::definite;
 use super::input_box::InputBox;
 use super::overflow::overflows;
-use super::reference::Engine;
-use super::refusals::unbounded_by;
+use super::reference::{self, Engine};
+use super::refusals::{not_shown, unbounded_by};
 use super::search::{self, SearchEffort, Target};
 use super::sines::{self, Slopes};
 use super::variant::{Variant, VariantSet};
@@ -42,20 +44,20 @@ const REACHED: f64 = 1e-3;
 pub struct Budget<'a> {
     /// The full model.
     pub setup: &'a Setup,
-    /// The exact program.
     pub exact: &'a Program,
     /// The box in which bounds hold.
     pub limits: InputBox,
     /// T of each result, or just below.
     pub scales: Vec<f64>,
-    /// The meaning of T.
     pub relative_to: Scale,
     reached: Vec<JointState>,
     /// The function that makes the load, where a payload is an argument of this one.
     load: Option<&'a Program>,
     reference: Engine,
-    library: Library,
-    is_fused: bool,
+    /// The library whose sines code calls.
+    pub(crate) library: Library,
+    /// `true` if products are fused.
+    pub(crate) is_fused: bool,
 }
 
 /// The tolerance of each result, relative to T.
@@ -83,7 +85,7 @@ impl<'a> Budget<'a> {
         let mut limits = InputBox::within(setup, exact.function).map_err(refused)?;
         let load = load.filter(|_| exact.arguments.contains(&Argument::Load));
         let reference = Engine::new(setup, exact, load).map_err(refused)?;
-        let ranges = reference.domain().load().iter();
+        let ranges = reference.domain.load().iter();
         let range = ranges.map(|ends| Interval::new(ends[0], ends[1]).unwrap_or(Interval::ALL));
         limits.load = range.collect();
         let (scales, reached) = match relative_to {
@@ -107,17 +109,6 @@ impl<'a> Budget<'a> {
         })
     }
 
-    /// Returns the budget of code that calls a library's sines, and fuses products or does not.
-    #[must_use]
-    pub fn emitting(self, library: Library, is_fused: bool) -> Budget<'a> {
-        Budget {
-            library,
-            is_fused,
-            ..self
-        }
-    }
-
-    /// Returns the tolerance of each result by a scene's.
     pub fn allowed(&self, tolerance: &Tolerance) -> Tolerances {
         Tolerances {
             per_result: scale::tolerances(self.exact, tolerance),
@@ -125,7 +116,6 @@ impl<'a> Budget<'a> {
         }
     }
 
-    /// Returns one tolerance for all results.
     pub fn all_allowed(&self, tolerance: f64) -> Tolerances {
         Tolerances {
             per_result: vec![tolerance; self.scales.len()],
@@ -143,8 +133,8 @@ impl<'a> Budget<'a> {
             return Ok(());
         }
         let why = definite::indefinite(self.exact, &self.limits);
-        let why = Diagnostic::error(format!("the full model: {why}"));
-        Err(self.missed(Miss::Indefinite, why))
+        let message = format!("the full model: {why}");
+        Err(self.missed(Miss::Indefinite, Diagnostic::error(message)))
     }
 
     /// Returns a program as it is printed in a scalar, with the bounds that the checker finds.
@@ -160,20 +150,19 @@ impl<'a> Budget<'a> {
         sines: &[AngleKernel],
         allowed: &Tolerances,
     ) -> Result<Variant, GenerateError> {
-        let emitted = match self.is_fused {
+        let printed = |program: &Program| match self.is_fused {
             true => program.fused(),
             false => program.clone(),
         };
+        let emitted = printed(program);
         let wider = scalar.of("", ", or choose a wider scalar");
         // Bounds of rounding are of numbers that the scalar holds.
         if let Some(first) = overflows(&emitted, scalar, &self.limits).first() {
-            return Err(self.missed(
-                Miss::Overflow,
-                Diagnostic::error(format!(
-                    "inside the box {first} in {scalar}, and an overflow has no error bound: \
+            let why = format!(
+                "inside the box {first} in {scalar}, and an overflow has no error bound: \
                  bound the box, choose other units{wider}"
-                )),
-            ));
+            );
+            return Err(self.missed(Miss::Overflow, Diagnostic::error(why)));
         }
         let draft = Variant {
             scalar,
@@ -183,10 +172,7 @@ impl<'a> Budget<'a> {
             exact: self.exact.clone(),
             emitted,
             text: String::new(),
-            load: self.load.map(|load| match self.is_fused {
-                true => load.fused(),
-                false => load.clone(),
-            }),
+            load: self.load.map(printed),
             // Polynomials call nothing.
             library: match sines {
                 [] => self.library,
@@ -196,10 +182,8 @@ impl<'a> Budget<'a> {
             scales: Vec::new(),
             bounds: Vec::new(),
         };
-        let variant = bounded(self.setup, &draft.printed(), allowed.one)
-            .map_err(|why| self.missed(Miss::Above, why))?;
-        let is_changed = variant.emitted != *self.exact || !sines.is_empty();
-        if is_changed {
+        let variant = self.bounded(draft.printed(), allowed.one)?;
+        if variant.emitted != *self.exact || !sines.is_empty() {
             let rounding = variant.in_units(|bound| bound.rounding);
             let (reference, errors) = (&self.reference, variant.errors());
             if !reference.is_definite(program, sines, Some(&rounding), &errors) {
@@ -211,21 +195,44 @@ impl<'a> Budget<'a> {
         Ok(variant)
     }
 
+    /// Returns a variant with T and the bounds that the checker finds: those that `generate` writes are
+    /// those that `certify` finds. A `tolerance` takes the place of the scene's.
+    fn bounded(&self, draft: Variant, tolerance: Option<f64>) -> Result<Variant, GenerateError> {
+        let (robot, (source, scene)) = (self.setup.robot(), reference::source(self.setup));
+        let claim = claim_in(robot, &source, self.setup, scene.as_ref(), &draft).write();
+        let demand = Demand {
+            scene: scene.as_ref().map(|scene| scene.name.as_str()),
+            tolerance,
+            worst: None,
+        };
+        let name = draft.emitted.function.name();
+        let find = || {
+            let mut findings = None;
+            for line in certify(&draft.with_load(), &claim, &source, &demand)?.lines {
+                let result = line.result?;
+                findings = findings.or((line.name == name).then_some(result.results));
+            }
+            findings.ok_or_else(|| Fault::Claim("the function is not in the file".into()))
+        };
+        let results =
+            find().map_err(|fault| self.missed(Miss::Above, not_shown(&draft, &fault)))?;
+        Ok(Variant {
+            bounds: results.iter().map(|bound| bound.relative()).collect(),
+            scales: results.iter().map(|bound| bound.scale).collect(),
+            ..draft
+        })
+    }
+
     /// Returns a program in several scalars, as [`shown`](Self::shown).
-    ///
-    /// # Errors
-    /// As of the first scalar that is refused.
     pub fn admitted(
         &self,
         program: &Program,
         scalars: &[ScalarType],
         allowed: &Tolerances,
     ) -> Result<VariantSet, GenerateError> {
-        let variants = scalars
-            .iter()
-            .map(|&scalar| self.shown(program, scalar, &[], allowed));
+        let shown = |&scalar: &ScalarType| self.shown(program, scalar, &[], allowed);
         Ok(VariantSet {
-            variants: variants.collect::<Result<_, _>>()?,
+            variants: scalars.iter().map(shown).collect::<Result<_, _>>()?,
             exact: self.exact.clone(),
             program: program.clone(),
         })
@@ -233,9 +240,6 @@ impl<'a> Budget<'a> {
 
     /// Returns the exact program in several scalars. If it cannot be shown that its D, if it has one, is
     /// positive definite, no variant's can.
-    ///
-    /// # Errors
-    /// As [`shown`](Self::shown).
     pub fn unedited(
         &self,
         scalars: &[ScalarType],
@@ -245,10 +249,8 @@ impl<'a> Budget<'a> {
         self.admitted(self.exact, scalars, allowed)
     }
 
-    /// Returns a plan's variant, as [`admitted`](Self::admitted): a plan is a text that anybody can edit.
-    ///
-    /// # Errors
-    /// A program that is not of the function, or reads what it may not; no variant meets the tolerance.
+    /// Returns a plan's variant, as [`admitted`](Self::admitted). A plan is a text that anybody can edit:
+    /// a program that is not of the function, or reads what it may not, is refused by itself.
     pub(crate) fn planned(
         &self,
         program: &Program,
@@ -274,11 +276,8 @@ impl<'a> Budget<'a> {
         watch: FunctionWatch<'_>,
     ) -> Result<VariantSet, GenerateError> {
         let meter = Meter::new(effort.work);
-        let scalars: Vec<ScalarType> = exact
-            .variants
-            .iter()
-            .map(|variant| variant.scalar)
-            .collect();
+        let variants = exact.variants.iter();
+        let scalars: Vec<ScalarType> = variants.map(|variant| variant.scalar).collect();
         let allowances = self.allowances(&exact, allowed);
         let mut programs = Vec::new();
         if allowances.iter().any(|allowance| *allowance > 0.0)
@@ -315,9 +314,6 @@ impl<'a> Budget<'a> {
 
     /// Returns a variant with polynomials for its sines: the cheapest that what edits and rounding leave
     /// of the tolerances admits; as it is if it has no sines.
-    ///
-    /// # Errors
-    /// The reason why there are none.
     pub fn with_polynomials(
         &self,
         program: &Program,
@@ -329,17 +325,11 @@ impl<'a> Budget<'a> {
         }
         // A bound is as large as is allowed: what is left is seen from what errors reach.
         let reached = self.reference.reached(program)?;
-        let left: Vec<f64> = variant
-            .bounds
-            .iter()
-            .zip(&allowed.per_result)
-            .zip(&variant.scales)
-            .zip(reached)
-            .map(|(((bound, t), scale), reached)| {
-                let rest = (t - 1.01 * bound.rounding) * scale - reached * (1.0 + REACHED);
-                rest.max(0.0)
-            })
-            .collect();
+        let unused = |(i, reached): (usize, f64)| {
+            let part = allowed.per_result[i] - 1.01 * variant.bounds[i].rounding;
+            (part * variant.scales[i] - reached * (1.0 + REACHED)).max(0.0)
+        };
+        let left: Vec<f64> = reached.into_iter().enumerate().map(unused).collect();
         let slopes = Slopes::new(program, &self.limits);
         let scalar = variant.scalar;
         let positions = self.limits.sine_positions(self.setup.robot(), scalar);
@@ -361,10 +351,9 @@ impl<'a> Budget<'a> {
 
     fn allowances(&self, exact: &VariantSet, allowed: &Tolerances) -> Vec<f64> {
         let left = |index: usize| {
+            let most = (1.0 - MARGIN) * allowed.per_result[index];
             let allowances = exact.variants.iter().map(|variant| {
-                let rest = (1.0 - MARGIN) * allowed.per_result[index]
-                    - ASIDE * variant.bounds[index].rounding;
-                rest * variant.scales[index]
+                (most - ASIDE * variant.bounds[index].rounding) * variant.scales[index]
             });
             allowances.fold(f64::INFINITY, f64::min).max(0.0)
         };

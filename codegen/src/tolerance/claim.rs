@@ -23,9 +23,8 @@ pub(super) fn claim_in(
     variant: &Variant,
 ) -> Claim {
     let mut constants = ConstantTable::default();
-    let load = variant.load.iter();
-    let load = load.map(|load| of_setup(load, setup, &mut constants));
-    let mut functions: Vec<FunctionClaim> = load.collect();
+    let load = |program| of_setup(program, setup, &mut constants);
+    let mut functions: Vec<FunctionClaim> = variant.load.iter().map(load).collect();
     functions.push(FunctionClaim {
         tolerated: tolerated(variant, &mut constants),
         ..of_setup(&variant.emitted, setup, &mut constants)
@@ -41,25 +40,21 @@ pub(crate) fn document(
     constants: ConstantTable,
 ) -> Claim {
     let is_tilted = |placement: &Placement| {
-        placement
-            .rpy
-            .iter()
-            .any(|angle| angle.quarter_turns().is_none())
+        let mut angles = placement.rpy.iter();
+        angles.any(|angle| angle.quarter_turns().is_none())
     };
     let scene = scene.filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
     let payload = scene.and_then(|scene| {
-        Some(Scene {
+        let carried = Scene {
             name: scene.name.clone(),
             payload: Some(scene.carried(robot)?),
             ..Scene::default()
-        })
+        };
+        Some(format!("\n{}", scene::write(&carried)))
     });
     let is_rounded = source.contains("placement") || payload.is_some();
-    let payload = payload.map_or_else(String::new, |payload_scene| {
-        format!("\n{}", scene::write(&payload_scene))
-    });
     Claim {
-        aligned: is_rounded.then(|| write(robot) + &payload),
+        aligned: is_rounded.then(|| write(robot) + &payload.unwrap_or_default()),
         notes: robot.notes.clone(),
         ..constants.document(functions)
     }
@@ -69,16 +64,13 @@ pub(crate) fn tolerated(first: &Variant, constants: &mut ConstantTable) -> Optio
     let program = &first.emitted;
     let exact = Some(&first.exact).filter(|exact| *exact != program);
     let [steps, returns] = exact.map_or_else(Default::default, |exact| code(exact, constants));
-    let is_given = |argument: &Argument| program.arguments.contains(argument);
     let reached = first.reached.iter().map(|at| {
         let state = Argument::STATE.iter().chain(&[Argument::Gravity]);
-        let arguments = state.filter(|argument| is_given(argument));
+        let arguments = state.filter(|argument| program.arguments.contains(argument));
+        let entries = arguments.flat_map(|argument| at.entries(*argument));
         // A payload is a point there.
         let point = at.payload.iter().skip(1).take(3);
-        let numbers = arguments
-            .flat_map(|argument| at.entries(*argument))
-            .chain(point);
-        numbers.copied().collect()
+        entries.chain(point).copied().collect()
     });
     Some(ToleranceClaim {
         steps,

@@ -57,7 +57,7 @@ pub(super) struct ColumnSketch {
 }
 
 /// The errors that are left once constants are corrected.
-pub(super) struct RemainingErrors {
+pub(super) struct Remainder {
     pub(super) sum: f64,
     pub(super) worst: f64,
     pub(super) change: Vec<f64>,
@@ -117,9 +117,7 @@ impl Greedy<'_> {
         mut kept: Option<&mut Vec<Vec<f64>>>,
     ) -> Vec<Vec<f64>> {
         let m = self.samples.len();
-        let rows = self.truth.len();
-        let mut columns: Vec<Vec<f64>> =
-            unknowns.iter().map(|_| Vec::with_capacity(rows)).collect();
+        let mut columns = vec![Vec::new(); unknowns.len()];
         let mut adjoints = Vec::new();
         for output in 0..self.net.outputs.len() {
             self.net.adjoints(state, values, (output, m), &mut adjoints);
@@ -150,16 +148,11 @@ impl Greedy<'_> {
         let (mut unknowns, mut adjoints) = (self.unknowns(state, live), Vec::new());
         let columns = self.jacobian(state, &values, &mut unknowns, Some(&mut adjoints));
         // Where an error is large already, more counts more.
-        let weights: Vec<f64> = self
-            .samples
-            .blocks(&errors)
-            .iter()
-            .map(|error| 0.3 + error)
-            .collect();
+        let blocks = self.samples.blocks(&errors);
+        let weights: Vec<f64> = blocks.iter().map(|error| 0.3 + error).collect();
         let sketched = |size: usize| {
-            let iter = columns.iter();
-            let sketched = iter.map(|column| self.sketch(column, &weights, size));
-            let columns: Vec<Vec<f64>> = sketched.collect();
+            let sketch = |column: &Vec<f64>| self.sketch(column, &weights, size);
+            let columns: Vec<Vec<f64>> = columns.iter().map(sketch).collect();
             let factor = normal(&columns, &unknowns);
             ColumnSketch {
                 size,
@@ -169,11 +162,9 @@ impl Greedy<'_> {
             }
         };
         let reached = |column: &Vec<f64>| {
-            let results = column
-                .chunks_exact(self.samples.len())
-                .enumerate()
-                .filter(|result| !is_zero(result.1));
-            results.map(|result| result.0).collect()
+            let results = column.chunks_exact(self.samples.len()).enumerate();
+            let changed = results.filter(|(_, rows)| !is_zero(rows));
+            changed.map(|(result, _)| result).collect()
         };
         Frame {
             reached: columns.iter().map(reached).collect(),
@@ -199,28 +190,17 @@ impl Greedy<'_> {
 
     /// Returns the sum of squares of sketched errors that constants leave.
     pub(super) fn squares(sketch: &ColumnSketch, rows: &[f64], gone: &[usize]) -> f64 {
-        let right: Vec<f64> = sketch
-            .columns
-            .iter()
-            .map(|column| dot(column, rows))
-            .collect();
-        let gone_changes = gone
-            .iter()
-            .map(|&k| dot(&sketch.inverse[k], &right))
-            .collect();
+        let columns = sketch.columns.iter();
+        let right: Vec<f64> = columns.map(|column| dot(column, rows)).collect();
+        let change = |&k: &usize| dot(&sketch.inverse[k], &right);
+        let small = Factor::new(gone.len(), |a, b| sketch.inverse[gone[a]][gone[b]]);
+        let lost = small.forward(gone.iter().map(change).collect());
         let taken = sketch.factor.forward(right);
-        let lost =
-            Factor::new(gone.len(), |a, b| sketch.inverse[gone[a]][gone[b]]).forward(gone_changes);
         dot(rows, rows) - dot(&taken, &taken) + dot(&lost, &lost)
     }
 
     /// Returns the errors that constants leave to first order, and their changes.
-    pub(super) fn left(
-        &self,
-        frame: &Frame,
-        mut rows: Vec<f64>,
-        gone: &[usize],
-    ) -> RemainingErrors {
+    pub(super) fn left(&self, frame: &Frame, mut rows: Vec<f64>, gone: &[usize]) -> Remainder {
         let fine = &frame.fine;
         let sketch = self.sketch(&rows, &frame.weights, fine.size);
         let right = fine.columns.iter().map(|column| dot(column, &sketch));
@@ -243,7 +223,7 @@ impl Greedy<'_> {
             }
         }
         let (sum, worst) = self.summed(&self.samples.blocks(&rows));
-        RemainingErrors { sum, worst, change }
+        Remainder { sum, worst, change }
     }
 
     /// Corrects constants so that the largest error is small: least squares again and again, weighed by
@@ -285,10 +265,8 @@ impl Greedy<'_> {
             let right = columns.iter().map(|column| dot(column, &rows)).collect();
             let ones = vec![1.0; levels.len()];
             let size = self.sketch_size(unknowns.len());
-            let iter = columns.iter();
-            let sketched: Vec<Vec<f64>> = iter
-                .map(|column| self.sketch(column, &ones, size))
-                .collect();
+            let sketch = |column: &Vec<f64>| self.sketch(column, &ones, size);
+            let sketched: Vec<Vec<f64>> = columns.iter().map(sketch).collect();
             change(state, &unknowns, &normal(&sketched, &unknowns).solve(right));
         }
         *state = best.1;
@@ -298,12 +276,9 @@ impl Greedy<'_> {
 
 /// Returns the factor of the normal equations of least squares, with a prior for each unknown.
 fn normal(columns: &[Vec<f64>], unknowns: &[Unknown]) -> Factor {
-    let prior = |a: usize, b: usize| match a == b {
-        true => unknowns[a].inertia.powi(2),
-        false => 0.0,
-    };
     Factor::new(columns.len(), |a, b| {
-        dot(&columns[a], &columns[b]) + prior(a, b)
+        let square = unknowns[a].inertia.powi(2);
+        dot(&columns[a], &columns[b]) + if a == b { square } else { 0.0 }
     })
 }
 

@@ -13,6 +13,7 @@ use crate::program::Program;
 use crate::random::Random;
 use crate::sincos::AngleKernel;
 use crate::sincos::interval::Interval;
+use crate::sincos::proof::Errors;
 use crate::states::JointState;
 
 const SAMPLES: usize = 64;
@@ -42,14 +43,9 @@ pub(crate) fn is_definite(
     let Some(first) = inertia_place(program) else {
         return false;
     };
-    let entry = |i: usize, j: usize| first + i * n + j;
     let error = |joint: usize, is_sine: bool| {
-        let kernel = sines.iter().find(|kernel| kernel.joint == joint)?;
-        Some(if is_sine {
-            kernel.errors.sin
-        } else {
-            kernel.errors.cos
-        })
+        let Errors { sin, cos } = sines.iter().find(|kernel| kernel.joint == joint)?.errors;
+        Some(if is_sine { sin } else { cos })
     };
     let sine_errors: Option<&dyn Fn(usize, bool) -> Option<f64>> = match sines {
         [] => None,
@@ -59,16 +55,10 @@ pub(crate) fn is_definite(
     let Some(written) = written.and_then(|program| domain.write(&program, sine_errors).ok()) else {
         return false;
     };
-    let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let result_error = |output: usize| off.map_or(0.0, |off| off[output]);
-    let entries: Vec<_> = lower
-        .iter()
-        .map(|&(i, j)| written[entry(i, j)].clone())
-        .collect();
-    let errors: Vec<f64> = lower
-        .iter()
-        .map(|&(i, j)| result_error(entry(i, j)).next_up())
-        .collect();
+    let lower = (0..n).flat_map(|i| (0..=i).map(move |j| first + i * n + j));
+    let entries: Vec<_> = lower.clone().map(|place| written[place].clone()).collect();
+    let most = |place: usize| off.map_or(0.0, |off| off[place]).next_up();
+    let errors: Vec<f64> = lower.map(most).collect();
     domain.is_definite(&entries, &errors)
 }
 
@@ -93,19 +83,18 @@ pub(super) fn indefinite(program: &Program, limits: &InputBox) -> Diagnostic {
 }
 
 fn negative(program: &Program, limits: &InputBox) -> Option<usize> {
-    let n = program.rows.len();
-    let first = start(program)?;
-    let entry = |i: usize, j: usize| first + i * n + j;
+    let (n, first) = (program.rows.len(), start(program)?);
     let code = program.in_doubles();
     let mut random = Random::new(0x1d3f);
     let drawn = (0..SAMPLES).map(|_| {
         let of = |q: &Interval| q.low() + q.width() * random.unit();
         limits.position.iter().map(of).collect()
     });
-    let mut positions = std::iter::once(middle(limits)).chain(drawn);
+    let middle = limits.position.iter().map(|q| q.mid()).collect();
+    let mut positions = std::iter::once(middle).chain(drawn);
     positions.find_map(|q| {
         let d = code.run_at(&JointState::at_rest(q));
-        let d = (0..n).map(|i| (0..n).map(|j| d[entry(i, j)]).collect());
+        let d = (0..n).map(|i| d[first + i * n..][..n].to_vec());
         let why = eliminated(d.collect()).err()?;
         why.is_negative.then_some(why.row)
     })
@@ -142,15 +131,10 @@ pub(super) fn eliminated(mut d: Vec<Vec<f64>>) -> Result<(), NotDefinite> {
     Ok(())
 }
 
-fn middle(limits: &InputBox) -> Vec<f64> {
-    limits.position.iter().map(|q| q.mid()).collect()
-}
-
 fn start(program: &Program) -> Option<usize> {
     let quantities = program.function.quantities();
-    let place = quantities
-        .iter()
-        .position(|quantity| quantity.facts().definite)?;
+    let mut definite = quantities.iter().map(|quantity| quantity.facts().definite);
+    let place = definite.position(|is_definite| is_definite)?;
     let before = quantities[..place].iter();
     Some(before.map(|quantity| quantity.len(program.sizes())).sum())
 }

@@ -12,6 +12,7 @@ use super::corrections::{Frame, change};
 use super::linear::dot;
 use super::net::{Arg, Edits, Net, NodeValue, short};
 use super::samples::Samples;
+use super::search::Target;
 use crate::program::{Operation, Program};
 use crate::random::Random;
 
@@ -31,7 +32,7 @@ const NEARLY: f64 = 1.1;
 pub(super) struct Greedy<'a> {
     exact: &'a Program,
     /// The error that each result may have.
-    allowances: Vec<f64>,
+    pub(super) allowances: Vec<f64>,
     pub(super) net: Net,
     pub(super) samples: Samples,
     inputs: Vec<f64>,
@@ -61,11 +62,6 @@ impl<'a> Greedy<'a> {
         };
         greedy.resample();
         greedy
-    }
-
-    /// Puts other errors in the place of those that are allowed.
-    pub(super) fn allow(&mut self, allowances: Vec<f64>) {
-        self.allowances = allowances;
     }
 
     /// Runs the exact program at the samples.
@@ -188,9 +184,8 @@ impl<'a> Greedy<'a> {
                 self.scale_result(result, &mut part);
                 self.sketch_result(result, &part, &frame.weights, &mut rows);
             }
-            rows.iter_mut()
-                .zip(&base)
-                .for_each(|(x, entry)| *x += entry);
+            let sums = rows.iter_mut().zip(&base);
+            sums.for_each(|(x, entry)| *x += entry);
             let gone = Self::gone(frame, &live, Some(node));
             let growth = Self::squares(coarse, &rows, &gone) - before;
             if growth <= most {
@@ -204,18 +199,13 @@ impl<'a> Greedy<'a> {
 
     /// Edits until nothing that saves an operation is allowed at the samples; returns the states on the
     /// way behind those that are there.
-    pub(super) fn drop_all(
-        &self,
-        history: &mut Vec<Edits>,
-        random: &mut Random,
-        is_over: &dyn Fn() -> bool,
-    ) {
-        let mut state = history[history.len() - 1].clone();
+    pub(super) fn drop_all(&self, path: &mut Vec<Edits>, random: &mut Random, target: &Target<'_>) {
+        let mut state = path[path.len() - 1].clone();
         let mut refused: Vec<(usize, NodeValue)> = Vec::new();
         let mut pool: Vec<(usize, NodeValue)> = Vec::new();
         let mut live = Vec::new();
         for edits in 0.. {
-            if is_over() {
+            if target.is_over() {
                 return;
             }
             let paid = self.net.price(&state, &mut live);
@@ -230,7 +220,7 @@ impl<'a> Greedy<'a> {
                 [&frame.errors, &errors].map(|errors| self.summed(&self.samples.blocks(errors)));
             if new.0 < old.0 && new.1 <= 1.0 {
                 (state, frame.values, frame.errors) = (next, values, errors);
-                if let Some(last) = history.last_mut() {
+                if let Some(last) = path.last_mut() {
                     last.clone_from(&state);
                 }
             }
@@ -262,7 +252,7 @@ impl<'a> Greedy<'a> {
                 refused.extend(look);
             };
             state = next;
-            history.push(state.clone());
+            path.push(state.clone());
         }
     }
 
@@ -338,11 +328,8 @@ impl<'a> Greedy<'a> {
             if node >= count {
                 let op = &state.ops[node - count];
                 if op.operation != Operation::Mul {
-                    let sign = if op.operation == Operation::Sub {
-                        -1.0
-                    } else {
-                        1.0
-                    };
+                    let is_difference = op.operation == Operation::Sub;
+                    let sign = if is_difference { -1.0 } else { 1.0 };
                     for (arg, sign) in op.args.iter().zip([1.0, sign]) {
                         if let Arg::Node(node) = arg {
                             replacements.push(NodeValue::Times(sign, *node));

@@ -44,11 +44,8 @@ pub(super) fn missing(
             [one] => Some(format!("joint {one}")),
             numbers => Some(format!("joints {}", numbers.join(", "))),
         };
-        let have = if numbers.len() + usize::from(base.is_some()) == 1 {
-            "has"
-        } else {
-            "have"
-        };
+        let is_one = numbers.len() + usize::from(base.is_some()) == 1;
+        let have = if is_one { "has" } else { "have" };
         let both: Vec<String> = base.into_iter().chain(joints).collect();
         format!("{} {have} no limit `{limit}`", both.join(" and "))
     };
@@ -66,21 +63,13 @@ pub(crate) fn payloads(setup: &Setup) -> BodyRange {
 }
 
 impl InputBox {
-    /// Returns the robot's limits. A revolute joint without limits of position may
-    /// stand anywhere: one turn.
-    ///
-    /// # Errors
-    /// A limit of motion that the robot does not have.
+    /// Returns the robot's limits. A revolute joint without any of position may stand anywhere: one turn.
     pub fn of(robot: &Robot) -> Result<InputBox, Diagnostic> {
         InputBox::within(&Setup::whole(robot), Function::InverseDynamics)
     }
 
     /// Returns the states of a robot in its scene that a function reads: its box, or the robot's
-    /// limits. Locked joints stand still where they are, and a rate that is
-    /// zero, or not an argument, is zero.
-    ///
-    /// # Errors
-    /// As [`InputBox::of`].
+    /// limits. Locked joints stand still where they are; a rate that is no argument is zero.
     pub fn within(setup: &Setup, function: Function) -> Result<InputBox, Diagnostic> {
         let arguments = setup.arguments(function);
         let mut limits = InputBox {
@@ -107,9 +96,8 @@ impl InputBox {
                 limits.acceleration.push(Interval::ZERO);
                 continue;
             }
-            limits
-                .position
-                .push(or_missing(position(row), Limit::Position));
+            let range = or_missing(position(row), Limit::Position);
+            limits.position.push(range);
             let mut rate = |argument, limit| {
                 if !arguments.contains(&argument) {
                     return Interval::ZERO;
@@ -118,8 +106,8 @@ impl InputBox {
                 or_missing(most.map(Interval::symmetric), limit)
             };
             let velocity = rate(Argument::Velocity, Limit::Velocity);
-            limits.velocity.push(velocity);
             let acceleration = rate(Argument::Acceleration, Limit::Acceleration);
+            limits.velocity.push(velocity);
             limits.acceleration.push(acceleration);
         }
         match lacking.is_empty() {
@@ -140,13 +128,10 @@ impl InputBox {
         let gravity = setup.robot().gravity.each_ref().map(f64::nearest_rational);
         let length = libm::sqrt(gravity.iter().map(|x| x * x).sum());
         self.gravity = vec![Interval::symmetric(length); 3];
+        let (velocity, acceleration) = (&mut self.velocity, &mut self.acceleration);
         for (argument, limit, intervals) in [
-            (Argument::Velocity, Limit::Velocity, &mut self.velocity),
-            (
-                Argument::Acceleration,
-                Limit::Acceleration,
-                &mut self.acceleration,
-            ),
+            (Argument::Velocity, Limit::Velocity, velocity),
+            (Argument::Acceleration, Limit::Acceleration, acceleration),
         ] {
             let is_read = arguments.contains(&argument);
             let most = base.limits.rate(limit).filter(|_| is_read);
@@ -188,7 +173,6 @@ impl InputBox {
         }
     }
 
-    /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.position.len()
     }
@@ -196,23 +180,19 @@ impl InputBox {
     /// Returns the positions over which sines must be good: those of the box, and [`stated`] angles
     /// of a joint that [turns freely](turns_freely).
     pub(crate) fn sine_positions(&self, robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
-        let every = Interval::symmetric(stated(scalar));
-        let ranges = self.position.iter().enumerate();
         let range = |(joint, range): (usize, &Interval)| match turns_freely(robot, joint) {
-            true => every,
+            true => Interval::symmetric(stated(scalar)),
             false => *range,
         };
-        ranges.map(range).collect()
+        self.position.iter().enumerate().map(range).collect()
     }
 }
 
 /// Returns true if a joint may stand anywhere, however many turns: it has no limits. Everything
 /// reads its sine and cosine, so that what holds over one turn holds wherever those two are good.
 pub(crate) fn turns_freely(robot: &Robot, joint: usize) -> bool {
-    robot
-        .joints
-        .get(joint)
-        .is_some_and(|joint| joint.kind == JointKind::Revolute && joint.limits.position.is_none())
+    let turns = |of: &Joint| of.kind == JointKind::Revolute && of.limits.position.is_none();
+    robot.joints.get(joint).is_some_and(turns)
 }
 
 fn around(at: &Position) -> Interval {

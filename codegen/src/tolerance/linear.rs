@@ -7,18 +7,13 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     work::count(a.len() / work::UNIT);
     let mut sums = [0.0; 8];
     let (x, y) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = x
-        .remainder()
-        .iter()
-        .zip(y.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
+    let rest = x.remainder().iter().zip(y.remainder());
     for (x, y) in x.zip(y) {
         for k in 0..8 {
             sums[k] += x[k] * y[k];
         }
     }
-    sums.iter().sum::<f64>() + rest
+    sums.iter().sum::<f64>() + rest.map(|(x, y)| x * y).sum::<f64>()
 }
 
 /// The factor L of a symmetric matrix A = L·Lᵀ, row by row.
@@ -56,10 +51,9 @@ impl Factor {
     /// Returns A⁻¹ y.
     pub(super) fn solve(&self, y: Vec<f64>) -> Vec<f64> {
         let mut y = self.forward(y);
-        for k in (0..y.len()).rev() {
-            let row = &self.0[k];
-            y[k] /= row[k];
-            let x = y[k];
+        for (k, row) in self.0.iter().enumerate().rev() {
+            let x = y[k] / row[k];
+            y[k] = x;
             y[..k].iter_mut().zip(row).for_each(|(y, l)| *y -= x * l);
         }
         y
@@ -67,8 +61,8 @@ impl Factor {
 
     /// Returns A⁻¹.
     pub(super) fn inverse(&self) -> Vec<Vec<f64>> {
-        let unit = |k: usize| (0..self.0.len()).map(move |j| f64::from(u8::from(j == k)));
-        let rows = 0..self.0.len();
-        rows.map(|k| self.solve(unit(k).collect())).collect()
+        let size = self.0.len();
+        let unit = |k: usize| (0..size).map(move |j| f64::from(u8::from(j == k)));
+        (0..size).map(|k| self.solve(unit(k).collect())).collect()
     }
 }

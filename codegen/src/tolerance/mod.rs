@@ -8,9 +8,9 @@
 //!   corrected for that; `reduce`: smaller models to start from
 //! - `net`: an edited program at many samples; `samples`: positions and motions; `linear`: least squares
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
-//! - `reference`, `bounded`: the engine's decision about a program, and the checker's about its text;
-//!   `claim`: the document for that; [`definite`]: whether D stays positive definite;
-//!   `turning`: a bound of D from below
+//! - `reference`: the engine's decision about a program; `claim`: the document by which the checker
+//!   decides about its text; [`definite`]: whether D stays positive definite; `turning`: a bound of D
+//!   from below
 //! - [`variant`]: the outcome; [`attempt`]: states that try to refute it
 //! - [`overflow`]: steps that may overflow
 //! - `shape`: a plan's variant fits the scene; `work`: work counted, for who cannot wait
@@ -18,7 +18,6 @@
 //! Samples rank, and decide nothing.
 
 pub(crate) mod attempt;
-mod bounded;
 pub(crate) mod budget;
 pub(crate) mod claim;
 mod corrections;

@@ -8,7 +8,7 @@ use dalembert_model::number::{Exact, Rational, Rounded};
 use super::samples::Samples;
 use super::work;
 use crate::dag::{Builder, Edge, Folding};
-use crate::program::{Input, Operand, Operation, Program, Steps};
+use crate::program::{Input, Operand, Operation, Output, Program, Steps};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Arg {
@@ -79,13 +79,10 @@ impl Net {
             args: [arg(&step.left), arg(&step.right)],
         });
         let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
-        let outputs = steps
-            .outputs
-            .iter()
-            .map(|output| (arg(&output.value), sign(output.negative)));
+        let output = |output: &Output| (arg(&output.value), sign(output.negative));
         Net {
             ops: ops.collect(),
-            outputs: outputs.collect(),
+            outputs: steps.outputs.iter().map(output).collect(),
             program: program.clone(),
             steps,
             inputs,

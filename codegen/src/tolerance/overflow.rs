@@ -21,9 +21,8 @@ pub(crate) fn overflows(program: &Program, scalar: ScalarType, limits: &InputBox
             Node::Input(Input::PerSpeed(coordinate)) => {
                 let mut speeds = program.speeds.iter();
                 let speed = speeds.find(|speed| speed.coordinate == *coordinate);
-                speed.map_or(f64::INFINITY, |speed| {
-                    SLACK / libm::sqrt(f64::nearest(&speed.square))
-                })
+                let width = speed.map(|speed| libm::sqrt(f64::nearest(&speed.square)));
+                width.map_or(f64::INFINITY, |width| SLACK / width)
             }
             Node::Input(Input::Entry(argument, index)) => {
                 let range = limits.of_argument(*argument).get(*index);
@@ -43,10 +42,9 @@ pub(crate) fn overflows(program: &Program, scalar: ScalarType, limits: &InputBox
         });
     }
     let largest = scalar.of(f64::MAX, f32::MAX.into());
-    let steps = program.dag.operations().enumerate();
-    let sizes = steps.map(|(step, (id, ..))| (step, sizes[id as usize]));
-    let large = sizes.filter(|(_, size)| *size > largest);
-    large
-        .map(|(step, size)| format!("t{} may reach {size:e}: it may overflow", step + 1))
-        .collect()
+    let steps = (1..).zip(program.dag.operations());
+    let reached = steps.map(|(step, (id, ..))| (step, sizes[id as usize]));
+    let large = reached.filter(|(_, size)| *size > largest);
+    let texts = large.map(|(step, size)| format!("t{step} may reach {size:e}: it may overflow"));
+    texts.collect()
 }

@@ -2,8 +2,11 @@
 
 use std::sync::OnceLock;
 
+use dalembert_checker::Fault;
 use dalembert_checker::domain::Domain;
+use dalembert_checker::identity::exact::Exact;
 use dalembert_checker::polynomial::Polynomial;
+use dalembert_checker::program as checked;
 use dalembert_model::diagnostic::Diagnostic;
 use dalembert_model::robot::write;
 use dalembert_model::scene::{self, Scene};
@@ -24,7 +27,7 @@ const OPEN: f64 = 0.8;
 const LARGE: f64 = 0.97;
 
 pub(crate) struct Engine {
-    domain: Domain,
+    pub(super) domain: Domain,
     exact: Vec<Polynomial>,
     /// The exact program, if it has D.
     inertia: Option<Program>,
@@ -61,14 +64,12 @@ pub(super) fn source(setup: &Setup) -> (String, Option<Scene>) {
     (source, scene)
 }
 
+fn refused(fault: Fault) -> Diagnostic {
+    Diagnostic::error(fault.to_string())
+}
+
 /// Reads a program as the checker has it.
-pub(super) fn read(
-    program: &Program,
-) -> Result<
-    dalembert_checker::program::Program<dalembert_checker::identity::exact::Exact>,
-    Diagnostic,
-> {
-    let refused = |fault: dalembert_checker::Fault| Diagnostic::error(fault.to_string());
+pub(super) fn read(program: &Program) -> Result<checked::Program<Exact>, Diagnostic> {
     let mut constants = ConstantTable::default();
     let claim = claimed(program, None, &mut constants);
     let document = constants.document(Vec::new());
@@ -78,15 +79,11 @@ pub(super) fn read(
 
 impl Engine {
     /// Writes an exact program out over the box of its robot.
-    ///
-    /// # Errors
-    /// A box or a program that the checker refuses.
     pub(super) fn new(
         setup: &Setup,
         exact: &Program,
         load: Option<&Program>,
     ) -> Result<Engine, Diagnostic> {
-        let refused = |fault: dalembert_checker::Fault| Diagnostic::error(fault.to_string());
         let domain = domain(setup, exact, load)?;
         let inertia = has_inertia(exact).then(|| exact.clone());
         let exact = domain.write(&read(exact)?, None).map_err(refused)?;
@@ -107,17 +104,15 @@ impl Engine {
             is_open: true,
             positions: Vec::new(),
         };
-        let Some(differences) = self.differences(program).ok() else {
+        let Ok(differences) = self.differences(program) else {
             (verdict.is_within, verdict.is_open) = (false, false);
             return verdict;
         };
         for (difference, allowed) in differences.iter().zip(allowed) {
             let (decision, position) = self.domain.decide(difference, *allowed);
             work::count(decision.steps as usize / work::UNIT);
-            let most = match decision.is_open {
-                true => OPEN * allowed,
-                false => *allowed,
-            };
+            let part = if decision.is_open { OPEN } else { 1.0 };
+            let most = part * allowed;
             verdict.is_within &= decision.is_shown || decision.is_open && decision.reached <= most;
             verdict.is_open &= decision.is_shown || decision.is_open;
             let ratio = decision.reached / most.max(f64::MIN_POSITIVE);
@@ -198,9 +193,6 @@ impl Engine {
     }
 
     /// Returns about how far off the results of a program are at most, in real numbers.
-    ///
-    /// # Errors
-    /// A program that the checker refuses.
     pub(super) fn reached(&self, program: &Program) -> Result<Vec<f64>, Diagnostic> {
         let differences = self.differences(program)?;
         let reached = |difference| self.domain.decide(difference, 0.0).0.reached;
@@ -209,38 +201,22 @@ impl Engine {
 
     /// Writes out what a program, which has the results of the exact one, differs by from that.
     fn differences(&self, program: &Program) -> Result<Vec<Polynomial>, Diagnostic> {
-        let written = self
-            .domain
-            .write(&read(program)?, None)
-            .map_err(|fault| Diagnostic::error(fault.to_string()))?;
-        let pairs = written.iter().zip(&self.exact);
-        Ok(pairs
-            .map(|(polynomial, exact)| polynomial.plus(&exact.negated()))
-            .collect())
-    }
-
-    pub(super) fn domain(&self) -> &Domain {
-        &self.domain
+        let written = self.domain.write(&read(program)?, None).map_err(refused)?;
+        let less = |(x, exact): (&Polynomial, &Polynomial)| x.plus(&exact.negated());
+        Ok(written.iter().zip(&self.exact).map(less).collect())
     }
 }
 
 /// Returns the box of a function's states.
-///
-/// # Errors
-/// A joint without limits, and what the checker does not know.
 pub(crate) fn domain(
     setup: &Setup,
     program: &Program,
     load: Option<&Program>,
 ) -> Result<Domain, Diagnostic> {
     let (source, scene) = source(setup);
-    let arguments: Vec<&str> = program
-        .arguments
-        .iter()
-        .map(|argument| argument.name())
-        .collect();
+    let names = program.arguments.iter().map(|argument| argument.name());
+    let arguments: Vec<&str> = names.collect();
     let load = load.map(read).transpose()?;
     let name = scene.as_ref().map(|scene| scene.name.as_str());
-    let domain = Domain::read(&source, name, &arguments, load.as_ref());
-    domain.map_err(|fault| Diagnostic::error(fault.to_string()))
+    Domain::read(&source, name, &arguments, load.as_ref()).map_err(refused)
 }

@@ -16,8 +16,7 @@ pub(crate) const FOLLOWERS_ARE_UNBOUNDED: &str = "joints of the robot follow oth
 
 pub(crate) fn unbounded(function: Function, floats: bool) -> Option<Diagnostic> {
     if function.columns() != RegressorColumns::None {
-        let why = "its entries multiply parameters of any size";
-        return Some(no_bound(why));
+        return Some(no_bound("its entries multiply parameters of any size"));
     }
     if function.inverts_inertia() {
         return Some(no_bound(DIVIDES));
@@ -31,9 +30,10 @@ pub(super) fn unbounded_by(program: &Program) -> Option<Diagnostic> {
     if program.divides() {
         return Some(no_bound(DIVIDES));
     }
-    let rubs = !program.speeds.is_empty();
-    let friction = rubs.then(|| Diagnostic::error(FRICTION_IS_UNBOUNDED));
-    friction.or_else(|| unbounded(program.function, program.floating > 0))
+    if !program.speeds.is_empty() {
+        return Some(Diagnostic::error(FRICTION_IS_UNBOUNDED));
+    }
+    unbounded(program.function, program.floating > 0)
 }
 
 /// Returns true for an argument that a box has ranges for: gravity has a length where the base floats.
@@ -43,10 +43,8 @@ pub(crate) fn is_bounded(argument: Argument, floats: bool) -> bool {
 }
 
 pub(crate) fn without_range(argument: Argument) -> Diagnostic {
-    let why = format!(
-        "a tolerance needs ranges, and a box has none for `{}`",
-        argument.name()
-    );
+    let name = argument.name();
+    let why = format!("a tolerance needs ranges, and a box has none for `{name}`");
     match argument {
         Argument::Gravity => Diagnostic::error(format!(
             "{why}: leave `gravity` out of the parameters, or give its value in the scene"

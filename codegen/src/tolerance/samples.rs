@@ -49,11 +49,8 @@ impl Samples {
             loads: limits.load.clone(),
             random: random.clone(),
         };
-        let drawn: Vec<_> = (0..count)
-            .map(|_| draw(limits, &mut random))
-            .map(|state| [state.q, state.g].concat())
-            .collect();
-        samples.add(drawn);
+        let drawn = (0..count).map(|_| draw(limits, &mut random));
+        samples.add(drawn.map(|state| [state.q, state.g].concat()));
         samples
     }
 
@@ -80,26 +77,19 @@ impl Samples {
     /// Returns an input at every sample: at rest, with each acceleration, with each velocity forward
     /// and backward, with each two velocities.
     pub(super) fn column(&self, input: Input) -> Vec<f64> {
-        let m = self.block();
-        let mut values = Vec::with_capacity(self.len());
-        for q in &self.positions {
-            let from = values.len();
+        let mut values = vec![0.0; self.len()];
+        let blocks = values.chunks_exact_mut(self.block());
+        for (q, block) in self.positions.iter().zip(blocks) {
+            let loads = q.len() - self.loads.len();
             match input {
-                Input::Sin(joint) => values.resize(from + m, libm::sin(q[joint])),
-                Input::Cos(joint) => values.resize(from + m, libm::cos(q[joint])),
-                Input::Entry(Argument::Position, joint) => values.resize(from + m, q[joint]),
-                Input::Entry(Argument::Load, index) => {
-                    values.resize(from + m, q[q.len() - self.loads.len() + index]);
-                }
-                Input::Entry(Argument::Gravity, index) => {
-                    values.resize(from + m, q[self.joints + index]);
-                }
-                Input::Entry(argument, joint) => {
-                    values.resize(from + m, 0.0);
-                    self.rate(argument, joint, &mut values[from..]);
-                }
+                Input::Sin(joint) => block.fill(libm::sin(q[joint])),
+                Input::Cos(joint) => block.fill(libm::cos(q[joint])),
+                Input::Entry(Argument::Position, joint) => block.fill(q[joint]),
+                Input::Entry(Argument::Load, index) => block.fill(q[loads + index]),
+                Input::Entry(Argument::Gravity, index) => block.fill(q[self.joints + index]),
+                Input::Entry(argument, joint) => self.rate(argument, joint, block),
                 // What reads it has no bounds, and is refused before any search.
-                Input::PerSpeed(_) => values.resize(from + m, f64::NAN),
+                Input::PerSpeed(_) => block.fill(f64::NAN),
             }
         }
         values
@@ -180,7 +170,6 @@ impl Samples {
         (high + greatest).max(-(low + least))
     }
 
-    /// Returns the largest magnitudes, block after block.
     pub(super) fn blocks(&self, rows: &[f64]) -> Vec<f64> {
         let blocks = rows.chunks_exact(self.block());
         blocks.map(|block| self.largest(block, 0.0)).collect()

@@ -43,11 +43,10 @@ pub(crate) fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Dia
         }
     };
     // Down, so that an error relative to it is rounded up.
-    let torque = |joint| -> Result<f64, Diagnostic> { Ok(read(joint, Limit::Torque)?.next_down()) };
+    let torque = |joint| read(joint, Limit::Torque).map(f64::next_down);
     let velocity = |joint| read(joint, Limit::Velocity);
     let acceleration = |joint| read(joint, Limit::Acceleration);
-    let inertia =
-        |i, k| -> Result<f64, Diagnostic> { Ok((torque(i)? / acceleration(k)?).next_down()) };
+    let inertia = |i, k| Ok::<f64, Diagnostic>((torque(i)? / acceleration(k)?).next_down());
     let (rows, sizes) = (&program.rows, program.sizes());
     let mut scales = Vec::new();
     for quantity in program.function.quantities() {
@@ -77,14 +76,12 @@ pub(crate) fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Dia
 pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let (rows, sizes) = (&program.rows, program.sizes());
     // Down: nothing is allowed that the decimal does not allow.
-    let of = |joint: usize| {
-        let value = tolerance.of(joint).map(f64::nearest_rational);
-        value.map_or(0.0, |value| {
-            let above = Rational::from_float(value)
-                .is_some_and(|exact| tolerance.of(joint).is_some_and(|wanted| exact > *wanted));
-            if above { value.next_down() } else { value }
-        })
+    let down = |wanted: &Rational| {
+        let value = f64::nearest_rational(wanted);
+        let is_above = Rational::from_float(value).is_some_and(|exact| exact > *wanted);
+        if is_above { value.next_down() } else { value }
     };
+    let of = |joint: usize| tolerance.of(joint).map_or(0.0, down);
     // What is of no joint, such as an energy, is held to the strictest.
     let strictest = rows.iter().copied().map(of).reduce(f64::min);
     let mut tolerances = Vec::new();
@@ -97,18 +94,14 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     tolerances
 }
 
-/// Returns a magnitude that each output attains, found by climbing from actual states:
-/// its largest over the box or just below, so an error relative to it is not
-/// understated; and the state at which it does. The checker finds T at that state.
+/// Returns a magnitude that each output attains, by climbing from actual states: its largest over the
+/// box or just below, so that no error relative to it is understated; and the state, at which the
+/// checker finds T.
 ///
 /// A payload is a point of the largest mass: results are linear in its moments of all degrees, and all
 /// bodies are between such points.
-pub fn range(
-    program: &Program,
-    load: Option<&Program>,
-    limits: &InputBox,
-) -> Vec<(f64, JointState)> {
-    let (exact, load) = (program.in_doubles(), load.map(Program::in_doubles));
+pub fn range(exact: &Program, load: Option<&Program>, limits: &InputBox) -> Vec<(f64, JointState)> {
+    let (code, load) = (exact.in_doubles(), load.map(Program::in_doubles));
     let put = |state: &mut JointState, random: &mut Random| {
         if let (Some(load), Some(BodyRange { mass, radius })) = (&load, limits.payload) {
             let at = [(); 3].map(|()| 2.0 * random.unit() - 1.0);
@@ -119,9 +112,9 @@ pub fn range(
         }
     };
     let mut random = Random::new(0x7a46e);
-    let outputs = 0..program.dag.outputs.len();
+    let outputs = 0..exact.dag.outputs.len();
     let ranges = outputs.map(|output| {
-        let mut size = |state: &JointState| exact.run_at(state)[output].abs();
+        let mut size = |state: &JointState| code.run_at(state)[output].abs();
         let (mut most, mut at) = (0.0f64, JointState::default());
         for climbed in 0..12 {
             let mut from = draw(limits, &mut random);

@@ -88,7 +88,7 @@ impl SearchEffort {
         ..SearchEffort::REPORT
     };
 
-    /// Returns that of a command that reports on variants.
+    /// Returns the effort of a command that reports on variants.
     pub fn of(effort: Effort) -> SearchEffort {
         match effort {
             Effort::Quick => SearchEffort::REPORT,
@@ -128,13 +128,11 @@ pub(super) fn programs(target: Target<'_>, from: &[Program]) -> Vec<Program> {
     starts.sort_by_key(cost);
     // The programs of smaller tolerances are starts as near as any.
     starts.splice(0..0, from.iter().cloned());
+    let rounds = starts.len().div_ceil(SIDE_BY_SIDE) + effort.again as usize;
     let mut run = ProgramSearch {
         target,
         programs: Vec::new(),
-        rounds: [
-            0,
-            starts.len().div_ceil(SIDE_BY_SIDE) + effort.again as usize,
-        ],
+        rounds: [0, rounds],
         spent: 0,
     };
     let mut ranked: Vec<(usize, usize)> = Vec::new();
@@ -198,11 +196,9 @@ impl ProgramSearch<'_> {
             None => parallel::each(starts, prune),
         };
         self.spent += outcomes.iter().map(|outcome| outcome.1).sum::<u64>();
-        let price = |programs: &[Program]| programs.iter().map(cost).min();
-        let prices = outcomes
-            .iter()
-            .map(|outcome| price(&outcome.0).unwrap_or(usize::MAX))
-            .collect();
+        let least = |outcome: &(Vec<Program>, u64)| outcome.0.iter().map(cost).min();
+        let costs = outcomes.iter().map(least);
+        let prices = costs.map(|cost| cost.unwrap_or(usize::MAX)).collect();
         for program in outcomes.into_iter().flat_map(|outcome| outcome.0) {
             if !self.programs.contains(&program) {
                 self.programs.push(program);
@@ -215,13 +211,8 @@ impl ProgramSearch<'_> {
 
 /// Returns the programs within the allowances that one start leads to.
 fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
-    let Target {
-        exact,
-        limits,
-        effort,
-        ..
-    } = target;
-    let mut samples = Samples::new(exact, limits, POSITIONS, 7 + seed);
+    let exact = target.exact;
+    let mut samples = Samples::new(exact, target.limits, POSITIONS, 7 + seed);
     let mut descent = ConstantDescent {
         target,
         random: Random::new(0xabcd ^ seed),
@@ -240,14 +231,12 @@ fn pruned(target: Target<'_>, start: &Program, seed: u64) -> Vec<Program> {
         if part < 1.0 && !is_exact && !descent.judge(&now, part).is_within {
             continue;
         }
-        let old = samples
-            .positions
-            .len()
-            .saturating_sub(2 * POSITIONS + REFUTING);
-        samples.positions.drain(POSITIONS..POSITIONS + old);
+        let positions = &mut samples.positions;
+        let old = positions.len().saturating_sub(2 * POSITIONS + REFUTING);
+        positions.drain(POSITIONS..POSITIONS + old);
         match descent.descend(&now, &mut samples, part) {
             Some(program) => {
-                let next = simplified(&program, effort.simplify);
+                let next = simplified(&program, target.effort.simplify);
                 if cost(&next) >= cost(&now) {
                     break;
                 }
@@ -278,8 +267,8 @@ impl ConstantDescent<'_> {
     }
 
     fn judge(&self, program: &Program, part: f64) -> super::reference::Verdict {
-        let target = self.target;
-        target.reference.judge(program, &self.allowances(part))
+        let allowances = self.allowances(part);
+        self.target.reference.judge(program, &allowances)
     }
 
     /// Edits a program until it is as cheap as the engine admits with a part of the allowances; none if
@@ -289,10 +278,8 @@ impl ConstantDescent<'_> {
         let allowances = self.allowances(part * self.share);
         let mut greedy = Greedy::new(exact, start, allowances, samples.clone(), self.noise);
         let mut history = vec![greedy.net.unedited()];
-        let target = self.target;
-        let is_over = || target.is_over();
         for round in 0..ROUNDS {
-            greedy.drop_all(&mut history, &mut self.random, &is_over);
+            greedy.drop_all(&mut history, &mut self.random, &self.target);
             if history.len() == 1 && is_exact {
                 return None;
             }
@@ -307,7 +294,7 @@ impl ConstantDescent<'_> {
                 };
                 return (cost(&best) < cost(start)).then_some(best);
             }
-            if target.is_over() {
+            if self.target.is_over() {
                 return None;
             }
             // Samples miss errors that the engine finds: the more they miss, the less may be used there.
@@ -318,7 +305,7 @@ impl ConstantDescent<'_> {
             }
             greedy.samples.add(verdict.positions);
             *samples = greedy.samples.clone();
-            greedy.allow(self.allowances(part * self.share));
+            greedy.allowances = self.allowances(part * self.share);
             greedy.resample();
             // Back to the last state that is within at the new samples as well.
             let (mut low, mut high) = (0, history.len());
@@ -348,12 +335,10 @@ impl ConstantDescent<'_> {
         mut program: Program,
     ) -> Program {
         let mut live = Vec::new();
-        let target = self.target;
-        let is_over = || target.is_over();
-        let least = target.effort.retries;
+        let least = self.target.effort.retries;
         let more = least * RETRIED / (1 + cost(&program));
         for round in 0..least + more {
-            if target.is_over() {
+            if self.target.is_over() {
                 break;
             }
             let mut trial = state.clone();
@@ -366,7 +351,7 @@ impl ConstantDescent<'_> {
             greedy.noise = if round % 3 == 0 { 0.0 } else { RETRY_NOISE };
             greedy.polish(&mut trial, 1);
             let mut history = vec![trial];
-            greedy.drop_all(&mut history, &mut self.random, &is_over);
+            greedy.drop_all(&mut history, &mut self.random, &self.target);
             let Some(mut trial) = history.pop() else {
                 break;
             };
@@ -386,11 +371,9 @@ impl ConstantDescent<'_> {
 }
 
 fn simplified(program: &Program, effort: Effort) -> Program {
-    let limits = |operations| effort.limits(operations);
     let seeds = [program.dag.clone()];
-    let best = search(&seeds, &[], &limits, &|_| true, &|_, _| true);
-    best.map_or_else(
-        || program.clone(),
-        |best| program.with_graph(&best.graph.without_vain_steps()),
-    )
+    match search(&seeds, &[], &|n| effort.limits(n), &|_| true, &|_, _| true) {
+        Some(best) => program.with_graph(&best.graph.without_vain_steps()),
+        None => program.clone(),
+    }
 }

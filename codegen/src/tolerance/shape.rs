@@ -13,32 +13,26 @@ use crate::setup::Setup;
 
 pub(super) fn check(setup: &Setup, program: &Program, emitted: &Program) -> Result<(), Diagnostic> {
     let function = emitted.function;
+    let arguments = setup.arguments(function);
+    let results = function.outputs(setup.sizes(function));
     let signature = [
         ("function", program.function == function),
         ("number of joints", program.joints == setup.joints()),
         ("list of rows", program.rows == setup.rows()),
-        (
-            "list of arguments",
-            program.arguments == setup.arguments(function),
-        ),
-        (
-            "number of results",
-            program.dag.outputs.len() == function.outputs(setup.sizes(function)),
-        ),
+        ("list of arguments", program.arguments == arguments),
+        ("number of results", program.dag.outputs.len() == results),
     ];
     if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
-        return Err(Diagnostic::error(format!(
-            "the {what} of the plan's variant is not that of the function in this scene"
-        )));
+        let why = "of the plan's variant is not that of the function in this scene";
+        return Err(Diagnostic::error(format!("the {what} {why}")));
     }
-    let mut inputs = program.dag.inputs();
-    inputs.try_for_each(|input| match wrong(setup, emitted, *input) {
-        None => Ok(()),
-        Some(why) => Err(Diagnostic::error(format!(
-            "the plan's variant reads `{}`: {why}",
-            input.name()
-        ))),
-    })
+    for input in program.dag.inputs() {
+        if let Some(why) = wrong(setup, emitted, *input) {
+            let message = format!("the plan's variant reads `{}`: {why}", input.name());
+            return Err(Diagnostic::error(message));
+        }
+    }
+    Ok(())
 }
 
 fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str> {
@@ -57,33 +51,23 @@ fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str>
             _ => None,
         },
     };
-    let (argument, wrong) = match input {
-        Input::Sin(joint) | Input::Cos(joint) => {
-            let wrong = of(joint, Some(JointKind::Revolute));
-            (Argument::Position, wrong)
-        }
+    let load = Argument::Load.length(setup.sizes(emitted.function));
+    let wrong = match input {
+        Input::Sin(joint) | Input::Cos(joint) => of(joint, Some(JointKind::Revolute)),
         // It rounds more than is bounded.
-        Input::PerSpeed(_) => {
-            let why = "no bound is known of what Coulomb friction reads of speeds";
-            (Argument::Velocity, Some(why))
-        }
+        Input::PerSpeed(_) => Some("no bound is known of what Coulomb friction reads of speeds"),
         Input::Entry(Argument::Load, index) => {
-            let length = Argument::Load.length(setup.sizes(emitted.function));
-            let wrong = (index >= length).then_some("the load has no such number");
-            (Argument::Load, wrong)
+            (index >= load).then_some("the load has no such number")
         }
         Input::Entry(Argument::Gravity, index) => {
-            let wrong = (index >= 3).then_some("gravity has three entries");
-            (Argument::Gravity, wrong)
+            (index >= 3).then_some("gravity has three entries")
         }
-        Input::Entry(Argument::Position, joint) => {
-            (Argument::Position, of(joint, Some(JointKind::Prismatic)))
-        }
-        Input::Entry(argument, coordinate) => {
+        Input::Entry(Argument::Position, joint) => of(joint, Some(JointKind::Prismatic)),
+        Input::Entry(_, coordinate) => {
             let joint = setup.robot().joint_of(coordinate);
-            (argument, joint.and_then(|joint| of(joint, None)))
+            joint.and_then(|joint| of(joint, None))
         }
     };
-    let missing = !emitted.arguments.contains(&argument);
+    let missing = !emitted.arguments.contains(&input.argument());
     wrong.or(missing.then_some("the function has no such argument in this scene"))
 }

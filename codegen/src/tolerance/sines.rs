@@ -14,7 +14,7 @@ use dalembert_model::diagnostic::Diagnostic;
 use super::input_box::InputBox;
 use super::net::Net;
 use super::samples::Samples;
-use crate::program::{Input, Pair, Program, ScalarType};
+use crate::program::{Input, Program, ScalarType};
 use crate::sincos::choose::{Candidates, KernelChoice};
 use crate::sincos::interval::Interval;
 use crate::sincos::{self, AngleKernel, Sines};
@@ -58,9 +58,8 @@ impl Slopes {
 
     fn of(&self, sines: &[AngleKernel]) -> Vec<f64> {
         self.costs(|input| {
-            let kernel = sines
-                .iter()
-                .find(|kernel| input.angle() == Some(kernel.joint));
+            let mut kernels = sines.iter();
+            let kernel = kernels.find(|kernel| input.angle() == Some(kernel.joint));
             kernel.map_or(0.0, |kernel| match input {
                 Input::Sin(_) => kernel.errors.sin,
                 _ => kernel.errors.cos,
@@ -71,9 +70,6 @@ impl Slopes {
 
 /// Returns the cheapest polynomials found with which sines and cosines cost no output
 /// more than its allowance, in its unit. No sines without angles: nothing is needed then.
-///
-/// # Errors
-/// An angle whose sine cannot be had as exactly.
 pub(super) fn within(
     program: &Program,
     scalar: ScalarType,
@@ -88,9 +84,8 @@ pub(super) fn within(
     };
     let mut sines = near(error)?;
     let admitted = |sines: &[AngleKernel]| {
-        let costs = slopes.of(sines);
-        let mut pairs = costs.iter().zip(allowances);
-        pairs.all(|(cost, allowed)| cost <= allowed)
+        let mut pairs = slopes.of(sines).into_iter().zip(allowances);
+        pairs.all(|(cost, allowed)| cost <= *allowed)
     };
     // A larger error costs more than in proportion: with half of it they fit.
     if !admitted(&sines) {
@@ -100,9 +95,7 @@ pub(super) fn within(
     loop {
         let mut best: Option<(usize, Sines)> = None;
         for (members, front) in &groups {
-            let Some(now) = members.first().map(|&m| sines[m].kernel.operations()) else {
-                continue;
-            };
+            let now = sines[members[0]].kernel.operations();
             let mut cheaper = front.iter().filter(|c| c.kernel.operations() < now);
             let Some(choice) = cheaper.next_back() else {
                 continue;
@@ -113,7 +106,9 @@ pub(super) fn within(
             }
             let mut other = sines.clone();
             for &member in members {
-                other[member] = taken(&sines[member], choice);
+                let sine = &mut other[member];
+                (sine.kernel, sine.errors) = (choice.kernel.clone(), choice.errors);
+                sine.form = choice.form.to_string();
             }
             if admitted(&other) {
                 best = Some((saved, other));
@@ -139,22 +134,16 @@ fn groups(
     positions: &[Interval],
     error: f64,
 ) -> Vec<(Vec<usize>, Vec<KernelChoice>)> {
-    let key = |trig: &Pair| {
-        let range = sincos::range_of(trig.joint, positions);
-        (range, trig.need)
-    };
-    let pairs = program.trig();
+    let mut keys = Vec::new();
     let mut groups: Vec<(Vec<usize>, Vec<KernelChoice>)> = Vec::new();
-    for (index, trig) in pairs.iter().enumerate() {
-        let same = |(members, _): &&mut (Vec<usize>, Vec<KernelChoice>)| {
-            let first = members.first().and_then(|&first| pairs.get(first));
-            first.is_some_and(|first| key(first) == key(trig))
-        };
-        match groups.iter_mut().find(same) {
-            Some((members, _)) => members.push(index),
+    for (index, trig) in program.trig().into_iter().enumerate() {
+        let key = (sincos::range_of(trig.joint, positions), trig.need);
+        match keys.iter().position(|known| *known == key) {
+            Some(group) => groups[group].0.push(index),
             None => {
-                let candidates = Candidates::new(trig.need, scalar, key(trig).0);
+                let candidates = Candidates::new(trig.need, scalar, key.0);
                 groups.push((vec![index], candidates.front(error * MAX, error)));
+                keys.push(key);
             }
         }
     }
@@ -162,12 +151,3 @@ fn groups(
 }
 
 const MAX: f64 = 1e4;
-
-fn taken(old: &AngleKernel, choice: &KernelChoice) -> AngleKernel {
-    AngleKernel {
-        form: choice.form.to_string(),
-        kernel: choice.kernel.clone(),
-        errors: choice.errors,
-        ..*old
-    }
-}

@@ -43,19 +43,15 @@ impl AxisLosses {
         let of_base = |body: &Joint| {
             let square: Rational = body.com.iter().map(|x| x * x).sum();
             let away = libm::sqrt(f64::nearest_rational(&square)) / SLACK;
-            [
-                f64::nearest_rational(&body.mass) * SLACK,
-                least_moment(body),
-                away,
-            ]
+            let mass = f64::nearest_rational(&body.mass) * SLACK;
+            [mass, least_moment(body), away]
         };
+        let rows = 0..robot.joints.len();
         (are_bodies && robot.followers.is_empty()).then(|| AxisLosses {
             kinds: joints().map(|joint| joint.kind).collect(),
             moments: joints().map(least_moment).collect(),
             armatures: joints().map(armature).collect(),
-            carriers: (0..robot.joints.len())
-                .map(|row| robot.carrier(row))
-                .collect(),
+            carriers: rows.map(|row| robot.carrier(row)).collect(),
             base: base.as_ref().map(of_base),
         })
     }
@@ -82,14 +78,12 @@ impl AxisLosses {
         }
         // The motions: of a base that floats |u| and |ω|, then |ω| of each joint's link. Links behind
         // a joint that stands still turn with those before it.
-        let of_base = if first > 0 { 2 } else { 0 };
+        let of_base: usize = if first > 0 { 2 } else { 0 };
         let joints: Vec<usize> = (0..count).filter_map(joint).collect();
         let turning = |link: Option<usize>| {
             let mut links = successors(link, |&link| self.carriers[link]);
             let place = links.find_map(|link| joints.iter().position(|joint| *joint == link));
-            place
-                .map(|place| of_base + place)
-                .or(of_base.checked_sub(1))
+            place.map_or(of_base.checked_sub(1), |place| Some(of_base + place))
         };
         let mut least = vec![0.0; of_base + joints.len()];
         let mut shares = vec![vec![0.0; least.len()]; count];
@@ -110,11 +104,8 @@ impl AxisLosses {
         }
         for (place, share) in shares.iter_mut().enumerate() {
             let Some(joint) = joint(place) else { continue };
-            for motion in [Some(joint), self.carriers[joint]]
-                .map(turning)
-                .into_iter()
-                .flatten()
-            {
+            let motions = [Some(joint), self.carriers[joint]].map(turning);
+            for motion in motions.into_iter().flatten() {
                 share[motion] += 1.0;
             }
         }
@@ -129,11 +120,9 @@ impl AxisLosses {
             };
             shares.iter().zip(&left).map(of_row).sum::<f64>() / SLACK
         };
-        eliminated(square(least.len(), &|i, j| {
-            let energy = if i == j { least[i] * SLACK } else { 0.0 };
-            energy - taken(i, j)
-        }))
-        .is_ok()
+        let energy = |i: usize, j: usize| if i == j { least[i] * SLACK } else { 0.0 };
+        let rest = square(least.len(), &|i, j| energy(i, j) - taken(i, j));
+        eliminated(rest).is_ok()
     }
 }
 

@@ -11,27 +11,23 @@ use crate::language::function;
 use crate::language::read::Signature;
 use crate::program::{Code, Library, Program, ScalarType};
 use crate::random::Random;
-use crate::sincos::Sines;
 use crate::sincos::interval::Interval;
+use crate::sincos::{AngleKernel, Sines};
 use crate::states::JointState;
 use crate::verify::exact::prove_same;
 
 /// A function under a tolerance, in one scalar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// The scalar of the emitted code.
     pub scalar: ScalarType,
     /// The box in which the bounds hold.
     pub limits: InputBox,
-    /// The meaning of T.
     pub relative_to: Scale,
     /// If that is the range, states at which the results reach it.
     pub reached: Vec<JointState>,
-    /// The exact program.
     pub exact: Program,
     /// The program that is emitted, with exact constants.
     pub emitted: Program,
-    /// The function as printed.
     pub text: String,
     /// The function that makes the load of a payload, where this one takes it.
     pub load: Option<Program>,
@@ -52,24 +48,23 @@ impl Variant {
         if !turns_freely(robot, joint) {
             return self.limits.position.get(joint).copied();
         }
-        let mut sines = self.sines.iter();
-        sines
-            .find(|sine| sine.joint == joint)
-            .map(|sine| sine.range)
+        let sine = self.sines.iter().find(|sine| sine.joint == joint);
+        sine.map(|sine| sine.range)
     }
 
-    /// Returns the variant with the text of its program.
     #[must_use]
     pub fn printed(self) -> Variant {
-        let (emitted, library) = (&self.emitted, self.library);
-        let code = emitted.code(self.scalar, library, &self.sines);
-        let text = function::write(emitted, &code, library, &[]);
+        let text = self.text_of(&self.emitted, self.library, &self.sines);
         Variant { text, ..self }
     }
 
+    fn text_of(&self, program: &Program, library: Library, sines: &[AngleKernel]) -> String {
+        let code = program.code(self.scalar, library, sines);
+        function::write(program, &code, library, &[])
+    }
+
     fn load_text(&self, load: &Program) -> String {
-        let code = load.code(self.scalar, Library::Libm, &[]);
-        function::write(load, &code, Library::Libm, &[])
+        self.text_of(load, Library::Libm, &[])
     }
 
     /// Returns its text, behind that of the function that makes its load.
@@ -81,9 +76,6 @@ impl Variant {
     }
 
     /// Returns the function that makes its load, as it is printed.
-    ///
-    /// # Errors
-    /// A text that cannot be read.
     pub(crate) fn loading(&self) -> Result<Option<Code>, Fault> {
         let load = self.load.as_ref().map(|load| {
             let signature = Signature::of(load, self.scalar);
@@ -104,7 +96,6 @@ impl Variant {
         state
     }
 
-    /// Returns the largest E.
     pub fn worst(&self) -> f64 {
         let totals = self.bounds.iter().map(|bound| bound.total());
         totals.fold(0.0, f64::max)
@@ -130,7 +121,6 @@ impl Variant {
 /// The variants of a function that meet their tolerance.
 #[derive(Clone, Debug)]
 pub struct VariantSet {
-    /// The exact program.
     pub exact: Program,
     /// The program to emit, before its products are fused.
     pub program: Program,

@@ -41,8 +41,7 @@ pub(crate) struct AccuracyFilter<'a> {
 }
 
 impl<'a> AccuracyFilter<'a> {
-    /// The textbook form is the link-frame recursion; for h_ikm, which it gives only by
-    /// differences, Lagrange–Euler.
+    /// The textbook form is the link-frame recursion; for h_ikm Lagrange–Euler: no differences.
     pub(crate) fn new(task: Task<'a>, is_lenient: bool) -> Self {
         let mut quantities = task.function.quantities().iter();
         let (most, by) = match quantities.any(|quantity| quantity.facts().by_differences) {
@@ -76,9 +75,8 @@ impl<'a> AccuracyFilter<'a> {
 
     /// Returns the largest normwise error of the textbook form, in units of u.
     pub(crate) fn textbook(&self) -> f64 {
-        self.reference
-            .as_ref()
-            .map_or(f64::INFINITY, Rounding::worst)
+        let reference = self.reference.as_ref();
+        reference.map_or(f64::INFINITY, Rounding::worst)
     }
 
     /// Returns the program's largest normwise error, in units of u.

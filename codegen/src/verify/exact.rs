@@ -6,14 +6,13 @@
 //! itself proved against Lagrange–Euler for every joint kind and convention at up to that many
 //! joints by tests.
 //!
-//! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree
-//! k in the points' parameters ([`points`](super::points)). It vanishes at a random point with
+//! **The chance of a miss.** A difference that does not vanish modulo p is a polynomial of degree k
+//! in the points' parameters ([`points`](super::points)). It vanishes at a random point with
 //! probability at most k/2⁶⁰ (Schwartz–Zippel; a residue is drawn with at most 2⁻⁶⁰), so at four
-//! with at most (2³⁰/2⁶⁰)⁴ < 1e-36. A larger degree takes up to ten points, and one beyond 2⁴⁸
-//! is refused. A difference all of whose coefficients p divides is not seen here, and has to
-//! get past the check of what was generated in 256 bits; constants that p divides are refused. The
-//! search finds equal values modulo another prime, 2⁶¹ − 1: no mistake that it makes there is
-//! hidden here.
+//! with at most (2³⁰/2⁶⁰)⁴ < 1e-36. A larger degree takes up to ten points, and one beyond 2⁴⁸ is
+//! refused. A difference all of whose coefficients p divides is not seen here, and has to get past
+//! the check of what was generated in 256 bits; constants that p divides are refused. The search
+//! finds equal values modulo another prime, 2⁶¹ − 1: no mistake that it makes there is hidden here.
 //!
 //! A solution of equations, such as q̈, is also put into them: at every point the formula's own
 //! values must solve D q̈ + h + c + b∘q̇ = τ with D and the loads as written.
@@ -109,9 +108,6 @@ impl fmt::Display for Disproof {
 
 /// Proves a program of a robot in its scene: against the full arm's formula with
 /// constants in place of what the scene fixes, whatever was merged.
-///
-/// # Errors
-/// The first output that differs, or the reason for which nothing can be proved.
 pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     // A program reads speeds of the robot's widths, and no other.
     if program.rows != setup.rows() || program.speeds != program.read_speeds(setup.speeds()) {

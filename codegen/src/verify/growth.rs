@@ -2,7 +2,7 @@
 //! An axis as the product of two others, whose axes are such products themselves, is exact and
 //! accurate, but its size in intervals is squared again and again.
 
-use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::number::Rounded;
 
 use crate::dag::{Dag, Node, Operation};
 
@@ -32,11 +32,10 @@ impl Growth {
 
 /// Sines, rates and loads are at most one; a quotient is as large as what it divides.
 fn sizes(graph: &Dag) -> Vec<f64> {
-    let magnitude = |constant: &Exact| f64::nearest(constant).abs();
     let mut sizes: Vec<f64> = Vec::with_capacity(graph.nodes.len());
     for node in &graph.nodes {
         let size = match node {
-            Node::Constant(constant) => magnitude(constant),
+            Node::Constant(constant) => f64::nearest(constant).abs(),
             Node::Input(_) => 1.0,
             Node::Apply(operation, operands) => {
                 let [a, b] = operands.map(|id| sizes[id as usize]);
@@ -49,11 +48,8 @@ fn sizes(graph: &Dag) -> Vec<f64> {
         };
         sizes.push(size);
     }
-    graph
-        .outputs
-        .iter()
-        .map(|edge| sizes[edge.index()])
-        .collect()
+    let outputs = graph.outputs.iter();
+    outputs.map(|edge| sizes[edge.index()]).collect()
 }
 
 #[cfg(test)]

@@ -65,12 +65,10 @@ impl Runtime {
 
     /// Creates the runtime of a robot in a scene, whose constants take the place of the state's.
     pub fn in_scene(setup: Setup) -> Runtime {
-        let whole = setup.arm(Exact::clone);
-        Runtime {
-            arm: whole.clone().fold_base().map(constant),
-            whole: whole.map(constant),
-            setup,
-        }
+        let exact = setup.arm(Exact::clone);
+        let whole = exact.map(constant);
+        let arm = exact.fold_base().map(constant);
+        Runtime { arm, whole, setup }
     }
 
     /// Returns the factors by which a function's results may err more than others at a state.
@@ -90,15 +88,11 @@ impl Runtime {
         let quantities = function.quantities().iter().zip(&divisors);
         let factors = quantities.map(|(&quantity, divisor)| {
             let of_divisor = condition(&floats(divisor)).max(1.0);
-            let inverts = quantity.facts().inverts_inertia;
-            (
-                quantity,
-                if inverts {
-                    of_inertia * of_divisor
-                } else {
-                    of_divisor
-                },
-            )
+            let factor = match quantity.facts().inverts_inertia {
+                true => of_inertia * of_divisor,
+                false => of_divisor,
+            };
+            (quantity, factor)
         });
         ConditionAllowance(factors.collect())
     }
@@ -136,10 +130,8 @@ impl RunnableCode {
 
     #[must_use]
     pub fn with_libm(&self) -> RunnableCode {
-        RunnableCode {
-            text: self.text.with_libm(),
-            ..*self
-        }
+        let text = self.text.with_libm();
+        RunnableCode { text, ..*self }
     }
 
     /// True for each result that was proved to vanish, which is compared with zero.

@@ -11,7 +11,6 @@
 
 use dalembert_model::equations::regressor::{Column, of_drives, of_links};
 use dalembert_model::number::Exact;
-use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use super::exact::{Disproof, compare, reference_formulation};
@@ -23,87 +22,70 @@ use crate::setup::Task;
 use crate::setup::base::{BaseParameters, Parameter};
 
 /// Proves the base parameters of a robot in its scene that a function is over.
-///
-/// # Errors
-/// A parameter whose torques they do not give, or too large a chance of a miss.
 pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof> {
     let Task { setup, function } = task;
     let RegressorColumns::Base(quantity) = function.columns() else {
         return Err(Disproof::Shape);
     };
-    let parameters = parameters(setup.robot());
+    let robot = setup.robot();
+    let drives = of_drives::<Exact>(robot);
+    let driven = drives.iter().map(|drive| Parameter::of_drive(robot, drive));
+    let parameters: Vec<Parameter> = Parameter::of_bodies(robot).chain(driven).collect();
     let place = |parameter: &Parameter| parameters.iter().position(|other| other == parameter);
-    let combinations: Option<Vec<Vec<_>>> = base
-        .combinations
-        .iter()
-        .map(|terms| {
-            let terms = terms
-                .iter()
-                .map(|(parameter, factor)| Some((place(parameter)?, factor)));
-            terms.collect()
-        })
-        .collect();
-    let statement = Statement {
-        task,
-        quantity,
-        columns: &base.columns,
-        combinations: combinations.ok_or(Disproof::Unfit)?,
-    };
+    let (columns, mut combinations) = (&base.columns, Vec::new());
+    for combination in &base.combinations {
+        let mut terms = Vec::new();
+        for (parameter, factor) in combination {
+            terms.push((place(parameter).ok_or(Disproof::Unfit)?, factor));
+        }
+        combinations.push(terms);
+    }
     let length = setup.rows().len() * parameters.len();
-    let base = format!("{function} {:?} {:?}", base.columns, base.combinations);
+    let base = format!("{function} {columns:?} {:?}", base.combinations);
     let degrees = Degrees::default();
-    let differences = statement.differences(&degrees);
+    let outputs = differences(task, quantity, columns, &combinations, &degrees);
     let zeros = vec![Scalar::zero(); length];
-    let points = degrees.points(&differences, &zeros, setup.joints())?;
+    let points = degrees.points(&outputs, &zeros, setup.joints())?;
     compare(
         points,
         &["base parameters", &written(setup), &base],
         |_| Ok(Some(vec![Residue::zero(); length])),
-        |point| Some(statement.differences(point)),
+        |point| Some(differences(task, quantity, columns, &combinations, point)),
         |wrong| Disproof::Dependence(parameters[wrong % parameters.len()].to_string()),
     )
 }
 
-fn parameters(robot: &Robot) -> Vec<Parameter> {
-    let drives = of_drives::<Exact>(robot);
-    let of_drives = drives.iter().map(|drive| Parameter::of_drive(robot, drive));
-    Parameter::of_bodies(robot).chain(of_drives).collect()
-}
-
-struct Statement<'a> {
-    task: Task<'a>,
+/// Returns Y_full − Y B over the rows, row by row. `combinations` are each base parameter's terms: the
+/// place of a parameter, and its factor.
+fn differences<L: Leaves>(
+    task: Task<'_>,
     quantity: Quantity,
-    columns: &'a [Column<Exact>],
-    /// Each base parameter's terms: the place of a parameter, and its factor.
-    combinations: Vec<Vec<(usize, &'a Exact)>>,
-}
-
-impl Statement<'_> {
-    /// Returns Y_full − Y B over the rows, row by row.
-    fn differences<L: Leaves>(&self, leaves: &L) -> Vec<L::Value>
-    where
-        L::Value: Erase,
-    {
-        let leaves = &AnyLeaves(leaves);
-        let setup = self.task.setup;
-        let by = reference_formulation(setup);
-        let posed = self.task.posed(leaves);
-        let constant = |x: &Exact| leaves.constant(x);
-        let mut full_columns = of_links(&setup.arm(constant));
-        full_columns.extend(of_drives(setup.robot()));
-        let base_columns: Vec<_> = self.columns.iter().map(|c| c.map(constant)).collect();
-        let [whole, base] = [full_columns, base_columns]
-            .map(|columns| posed.regressor(by, self.quantity, &columns));
-        let mut residuals = Vec::new();
-        for (mut differences, row) in whole.into_iter().zip(base) {
-            for (entry, terms) in row.iter().zip(&self.combinations) {
-                for (place, factor) in terms {
-                    let part = entry.mul(&constant(factor));
-                    differences[*place] = differences[*place].sub(&part);
-                }
+    columns: &[Column<Exact>],
+    combinations: &[Vec<(usize, &Exact)>],
+    leaves: &L,
+) -> Vec<L::Value>
+where
+    L::Value: Erase,
+{
+    let leaves = &AnyLeaves(leaves);
+    let setup = task.setup;
+    let by = reference_formulation(setup);
+    let posed = task.posed(leaves);
+    let constant = |x: &Exact| leaves.constant(x);
+    let mut full_columns = of_links(&setup.arm(constant));
+    full_columns.extend(of_drives(setup.robot()));
+    let base_columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
+    let regressor = |columns: Vec<_>| posed.regressor(by, quantity, &columns);
+    let [whole, base] = [full_columns, base_columns].map(regressor);
+    let mut residuals = Vec::new();
+    for (mut differences, row) in whole.into_iter().zip(base) {
+        for (entry, terms) in row.iter().zip(combinations) {
+            for (place, factor) in terms {
+                let part = entry.mul(&constant(factor));
+                differences[*place] = differences[*place].sub(&part);
             }
-            residuals.extend(differences);
         }
-        restored(residuals)
+        residuals.extend(differences);
     }
+    restored(residuals)
 }

@@ -31,12 +31,10 @@ pub(super) const POINTS: usize = 4;
 /// A wrong program passes with a probability below 2 to the power of minus this, 1e-36.
 const CERTAINTY: u32 = 120;
 
-/// A difference of degree k vanishes at a point with a probability of at most k times 2 to the
-/// power of minus this.
+/// A difference of degree k vanishes at a point with a probability of at most k/2^POINT.
 const POINT: u32 = 60;
 
-/// For each point that has to have values this many are drawn, before a statement is given up
-/// because values are missing.
+/// So many points are drawn for each that has to have values, before a statement is given up.
 const DRAWS: usize = 4;
 
 /// A residue modulo 2⁶¹ − 465. The search has another prime: what it takes for equal by chance, or
@@ -55,34 +53,23 @@ pub(super) fn points(statement: &[&str], count: usize) -> impl Iterator<Item = P
         hash.update((text.len() as u64).to_le_bytes());
         hash.update(text.as_bytes());
     }
-    let hash = hash.finalize();
-    let bytes = hash.iter().take(8);
-    let seed = bytes.fold(0, |seed, &byte| (seed << 8) | u64::from(byte));
-    let points = Points::new(seed);
+    let bytes = hash.finalize().into_iter().take(8);
+    let points = Points::new(bytes.fold(0, |seed, byte| (seed << 8) | u64::from(byte)));
     (0..DRAWS * count).map(move |index| Point { points, index })
 }
 
 pub(super) fn written(setup: &Setup) -> String {
-    let drives = [RuntimeParameter::Armature, RuntimeParameter::Viscous];
-    let of_links = (setup.has(RuntimeParameter::Bodies)
-        || drives.iter().any(|drive| setup.has(*drive)))
-    .then(|| {
-        format!(
-            "\n{:?}\n{:?}\n{:?}",
-            setup.body_links(),
-            setup.zeros(),
-            drives.map(|drive| setup.has(drive))
-        )
-    });
-    format!(
-        "{}\n{}\n{:?}\n{:?}{}",
-        write_robot(setup.robot()),
-        setup.scene().map(write_scene).unwrap_or_default(),
-        setup.rows(),
-        [RuntimeParameter::Payload, RuntimeParameter::Gravity]
-            .map(|parameter| setup.has(parameter)),
-        of_links.unwrap_or_default(),
-    )
+    let has = |parameters: [RuntimeParameter; 2]| parameters.map(|parameter| setup.has(parameter));
+    let taken = has([RuntimeParameter::Payload, RuntimeParameter::Gravity]);
+    let drives = has([RuntimeParameter::Armature, RuntimeParameter::Viscous]);
+    let (robot, rows) = (write_robot(setup.robot()), setup.rows());
+    let scene = setup.scene().map(write_scene).unwrap_or_default();
+    let mut text = format!("{robot}\n{scene}\n{rows:?}\n{taken:?}");
+    if setup.has(RuntimeParameter::Bodies) || drives.contains(&true) {
+        let (links, zeros) = (setup.body_links(), setup.zeros());
+        text += &format!("\n{links:?}\n{zeros:?}\n{drives:?}");
+    }
+    text
 }
 
 impl Leaves for Point {
@@ -150,10 +137,8 @@ impl Leaves for Degrees {
             if !known.contains(angle) {
                 known.push(angle.clone());
             }
-            SinCosPair {
-                sin: Degree::new(1.0),
-                cos: Degree::new(1.0),
-            }
+            let [sin, cos] = [1.0; 2].map(Degree::new);
+            SinCosPair { sin, cos }
         };
         let degree = constant.map(&mut |_| Some(Degree::new(0.0)), pair);
         Sparse::constant(constant, degree.unwrap_or_default())
@@ -171,17 +156,10 @@ mod tests {
             let degree = Degree::new(2f64.powi(exponent) / 3.0);
             Degrees::default().points(&[Sparse::Value(degree)], &[Scalar::zero()], 1)
         };
-        let expected = [
-            (1, 4),
-            (30, 4),
-            (31, 5),
-            (36, 5),
-            (37, 6),
-            (40, 6),
-            (48, 10),
-        ];
-        for (exponent, count) in expected {
-            assert_eq!(points(exponent), Ok(count), "2^{exponent}");
+        for (count, exponents) in [(4, [1, 30]), (5, [31, 36]), (6, [37, 40]), (10, [47, 48])] {
+            for exponent in exponents {
+                assert_eq!(points(exponent), Ok(count), "2^{exponent}");
+            }
         }
         for exponent in [49, 2000] {
             assert_eq!(points(exponent), Err(Disproof::Large), "2^{exponent}");

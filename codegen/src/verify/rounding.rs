@@ -72,8 +72,7 @@ impl Rounding {
         let mut adjoints = vec![Lanes::<Sticky>::zero(); dag.nodes.len()];
         for (index, values) in runs {
             let error = |(top, needed): &(Id, Vec<Id>)| {
-                let error = error(dag, needed, &values, &is_exact, &mut adjoints);
-                (*top, error)
+                (*top, error(dag, needed, &values, &is_exact, &mut adjoints))
             };
             let by_node: HashMap<Id, [f64; LANES]> = needed.iter().map(error).collect();
             let of_output = |output: &Edge| by_node[&output.node];
@@ -121,45 +120,33 @@ impl Rounding {
 struct Sticky(f64);
 
 impl Scalar for Sticky {
-    #[inline]
     fn zero() -> Self {
         Sticky(0.0)
     }
-    #[inline]
     fn one() -> Self {
         Sticky(1.0)
     }
-    #[inline]
     fn add(&self, other: &Self) -> Self {
         Sticky(self.0 + other.0)
     }
-    #[inline]
-    fn sub(&self, other: &Self) -> Self {
-        Sticky(self.0 - other.0)
-    }
-    #[inline]
     fn mul(&self, other: &Self) -> Self {
         match self.0 == 0.0 || other.0 == 0.0 {
             true => Sticky(0.0),
             false => Sticky(self.0 * other.0),
         }
     }
-    #[inline]
     fn neg(&self) -> Self {
         Sticky(-self.0)
     }
-    #[inline]
     fn half(&self) -> Self {
         Sticky(0.5 * self.0)
     }
-    #[inline]
     fn is_zero(&self) -> bool {
         self.0 == 0.0
     }
 }
 
 impl Divide for Sticky {
-    #[inline]
     fn div(&self, other: &Self) -> Self {
         match self.0 == 0.0 {
             true => Sticky(0.0),

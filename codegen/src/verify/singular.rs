@@ -15,8 +15,7 @@ use crate::setup::Task;
 
 /// The joint nearest to the hand; none if D has an inverse almost everywhere.
 pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
-    let Task { setup, function: _ } = task;
-    let statement = ["inertia", &written(setup)];
+    let statement = ["inertia", &written(task.setup)];
     // A point without values tells nothing; without any that has them the proof will say so.
     let pivots = points(&statement, POINTS).filter_map(|point| zero_pivot(task, &point));
     let joints: Option<Vec<usize>> = pivots.take(POINTS).collect();

@@ -35,11 +35,9 @@ const MAX_PAIRS: usize = 1 << 13;
 
 impl Reference {
     pub fn new(setup: &Setup) -> Reference {
-        Reference {
-            arm: setup.arm(|constant| TrueValue::constant(constant).erase()),
-            setup: setup.clone(),
-            pairs: RefCell::default(),
-        }
+        let arm = setup.arm(|constant| TrueValue::constant(constant).erase());
+        let (setup, pairs) = (setup.clone(), RefCell::default());
+        Reference { arm, setup, pairs }
     }
 
     pub fn setup(&self) -> &Setup {

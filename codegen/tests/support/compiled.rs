@@ -64,23 +64,19 @@ fn call(case: &Case, generated: &GeneratedCode, emitted: &RunnableCode) -> Strin
     let names = Names::new(&base, case.request.language, emitted.scalar);
     let name = names.of(&format!("{function}{}", if batch { "_batch" } else { "" }));
     let mut functions = generated.functions.iter();
-    let generated_function = functions
-        .find(|candidate| candidate.function == function)
-        .unwrap();
+    let generated_function = functions.find(|candidate| candidate.function == function);
     let (mut body, mut results, mut passed) = (String::new(), String::new(), Vec::new());
     if batch {
         passed.push("STATES".to_owned());
     }
-    for argument in &generated_function.program.arguments {
+    for argument in &generated_function.unwrap().program.arguments {
         let (from, length) = (argument.index() * MOST, argument.length(emitted.sizes));
         assert!(length <= MOST);
         body += &format!("IN({float}, {}, {length}, {from})\n", argument.name());
-        let cast = match argument {
-            argument if argument.has_type() && !batch => {
-                format!("(const {} *)", names.of(&format!("{}_t", argument.name())))
-            }
-            _ => String::new(),
-        };
+        let mut cast = String::new();
+        if argument.has_type() && !batch {
+            cast = format!("(const {} *)", names.of(&format!("{}_t", argument.name())));
+        }
         if batch && *argument == Argument::Load {
             passed.push("STATES".to_owned());
         }
@@ -115,10 +111,8 @@ fn call(case: &Case, generated: &GeneratedCode, emitted: &RunnableCode) -> Strin
 
 fn main_of(case: &Case, generated: &GeneratedCode) -> String {
     let emitted = &generated.emitted;
-    let calls: String = emitted
-        .iter()
-        .map(|code| call(case, generated, code))
-        .collect();
+    let call_of = |code| call(case, generated, code);
+    let calls: String = emitted.iter().map(call_of).collect();
     let outputs = emitted.iter().map(|code| code.text.dag.outputs.len());
     let states = if case.request.batch { STATES } else { 1 };
     let device = match case.request.language {
@@ -150,8 +144,7 @@ fn expected(generated: &GeneratedCode, state: &[f64]) -> Vec<u64> {
             let start = argument.index() * MOST;
             state[start..start + argument.length(emitted.sizes)].to_vec()
         });
-        let results = emitted.text.run_at(&state);
-        bits.extend(results.into_iter().map(f64::to_bits));
+        bits.extend(emitted.text.run_at(&state).into_iter().map(f64::to_bits));
     }
     bits
 }
@@ -159,8 +152,7 @@ fn expected(generated: &GeneratedCode, state: &[f64]) -> Vec<u64> {
 /// `what` names a folder; every compiler that is there makes the program with each of these flags.
 pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
     let (generated, language) = (case.generated(), case.request.language);
-    let is_batch = case.request.batch;
-    let batch = if is_batch { "batch" } else { "single" };
+    let batch = ["single", "batch"][usize::from(case.request.batch)];
     let folder = folder(&format!("{what}_{}_{batch}", language.name()));
     fs::write(folder.join("arm.h"), generated.text()).unwrap();
     fs::write(folder.join("main.c"), main_of(case, &generated)).unwrap();

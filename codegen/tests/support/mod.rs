@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, Mutex};
 
 use dalembert_codegen::workspace::{
-    ConditionAllowance, JointState, LEAST_PART, RunnableCode, Runtime, keep, parse,
+    ConditionAllowance, JointState, LEAST_PART, RunnableCode, Runtime, Variant, keep, parse,
 };
 use dalembert_codegen::{
     Function, GeneratedCode, GeneratedFunction, Language, Plan, Request, ScalarType, generate,
@@ -87,10 +87,7 @@ pub fn source(name: &str, more: &str) -> String {
         return with_frames(name) + more;
     }
     let files = FOLDERS.map(|folder| root().join(format!("{folder}/{name}.toml")));
-    let file = files
-        .into_iter()
-        .find(|file| file.exists())
-        .unwrap_or_else(|| panic!("there is no {name}.toml"));
+    let file = files.iter().find(|file| file.exists()).expect(name);
     std::fs::read_to_string(file).unwrap() + more
 }
 
@@ -110,8 +107,12 @@ pub fn reading_with(name: &str, more: &str) -> Reading {
     read(&source(name, more))
 }
 
+pub fn text(file: &str) -> String {
+    std::fs::read_to_string(path(file)).unwrap()
+}
+
 pub fn json(file: &str) -> Value {
-    serde_json::from_str(&std::fs::read_to_string(path(file)).unwrap()).unwrap()
+    serde_json::from_str(&text(file)).unwrap()
 }
 
 fn with_frames(name: &str) -> String {
@@ -183,19 +184,17 @@ pub fn every_line_counts(
     is_refused: impl Fn(&str) -> bool,
 ) -> usize {
     let lines: Vec<&str> = text.lines().collect();
-    let candidates = lines.iter().enumerate().flat_map(|(index, line)| {
-        let others = others(index, line)
-            .into_iter()
-            .filter(move |other| other != line);
-        others.map(move |other| (index, other))
-    });
-    let mut count = 0;
-    for (_, (index, other)) in candidates.enumerate().filter(|(place, _)| is_tried(*place)) {
-        count += 1;
-        let mut changed = lines.clone();
-        changed[index] = &other;
-        let changed = changed.join("\n") + "\n";
-        assert!(is_refused(&changed), "{} → {other}", lines[index]);
+    let (mut place, mut count) = (0, 0);
+    for (index, line) in lines.iter().enumerate() {
+        for other in others(index, line).iter().filter(|other| other != line) {
+            if is_tried(place) {
+                count += 1;
+                let mut changed = lines.clone();
+                changed[index] = other;
+                assert!(is_refused(&(changed.join("\n") + "\n")), "{line} → {other}");
+            }
+            place += 1;
+        }
     }
     count
 }
@@ -249,7 +248,7 @@ impl Case {
     pub fn planar2r(asked: &str) -> Case {
         static PLAN: LazyLock<Plan> = LazyLock::new(|| {
             let case = Case::in_scene("planar2r", "", &every_output());
-            keep(case.robot(), &case.request, &case.generated(), None).plan
+            case.plan(&case.generated())
         });
         let mut case = Case::in_scene("planar2r", "", asked);
         case.request.plan = Some(PLAN.clone());
@@ -264,17 +263,11 @@ impl Case {
     fn parse(source: &str, asked: &str) -> Result<Case, String> {
         let reading = read(source);
         let (asked, language) = asked.split_once("; language: ").unwrap_or((asked, "rust"));
-        let words = asked
-            .parse()
-            .unwrap_or_else(|error| panic!("{asked}: {error:?}"));
-        let mut request = Request::parse(
-            &words,
-            &ScalarType::ALL,
-            &reading.robot,
-            &[],
-            &reading.scenes,
-        )
-        .map_err(|problems| {
+        let parsed = asked.parse();
+        let words = parsed.unwrap_or_else(|error| panic!("{asked}: {error:?}"));
+        let (robot, scenes) = (&reading.robot, &reading.scenes);
+        let request = Request::parse(&words, &ScalarType::ALL, robot, &[], scenes);
+        let mut request = request.map_err(|problems| {
             let said = problems.0.iter().map(|problem| format!("{problem}\n"));
             said.collect::<String>()
         })?;
@@ -304,9 +297,12 @@ impl Case {
             return self.by(&plan);
         }
         let generated = self.searched();
-        let plan = keep(robot, &self.request, &generated, None).plan;
-        FOUND.lock().unwrap().insert(key, plan);
+        FOUND.lock().unwrap().insert(key, self.plan(&generated));
         generated
+    }
+
+    pub fn plan(&self, generated: &GeneratedCode) -> Plan {
+        keep(self.robot(), &self.request, generated, None).plan
     }
 
     pub fn searched(&self) -> GeneratedCode {
@@ -320,10 +316,8 @@ impl Case {
     }
 
     pub fn refusal(&self) -> String {
-        match generate(self.robot(), &self.request) {
-            Ok(_) => panic!("generated"),
-            Err(error) => error.to_string(),
-        }
+        let error = generate(self.robot(), &self.request).expect_err("generated");
+        error.to_string()
     }
 
     /// Coulomb friction has its full force at some states and is within its width at others.
@@ -379,9 +373,8 @@ pub fn with_runtime(
     let compared = states.iter().map(|state| {
         let state = state.in_scalar(code.scalar);
         let known = runtime.run(code.function, &state).into_iter();
-        let expected = known
-            .zip(code.vanishing())
-            .map(|(x, vanishes)| if vanishes { 0.0 } else { x });
+        let pairs = known.zip(code.vanishing());
+        let expected = pairs.map(|(x, vanishes)| if vanishes { 0.0 } else { x });
         let granted = runtime.granted(code.function, &state);
         (code.run(&state), expected.collect(), granted)
     });
@@ -422,6 +415,15 @@ pub fn hold(emitted: &RunnableCode, compared: &[Compared], what: &str) {
     for (error, quantity) in errors.zip(emitted.function.quantities()) {
         assert!(error <= BOUND, "{what} {quantity:?}: {error} u");
     }
+}
+
+#[track_caller]
+pub fn says(text: &str, words: &str) {
+    assert!(text.contains(words), "{words:?} expected in: {text}");
+}
+
+pub fn variants(generated: &GeneratedCode) -> &[Variant] {
+    &generated.functions[0].admitted.as_ref().unwrap().variants
 }
 
 pub fn is_close(found: &[f64], expected: &[f64], most: f64) -> bool {

@@ -55,7 +55,6 @@ pub(crate) struct Entries<'a, T, const E: usize, const R: usize> {
 pub(crate) type RowBlocks<T, const R: usize> = [[T; BLOCK]; R];
 
 impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
-    /// Reads the arguments of so many states.
     pub(crate) fn of(arguments: &'a [Argument<'a, T>], states: usize) -> Result<Self, Unequal> {
         let (mut sources, mut count, mut rows) = ([Source::Column(&[][..]); E], 0, 0);
         let mut push = |source| {
@@ -94,7 +93,6 @@ impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
         })
     }
 
-    /// Returns the entries at some of the states.
     pub(crate) fn at(&self, states: Range<usize>) -> Self {
         let of_columns = |source: Source<'a, T>| match source {
             Source::Column(column) => {
@@ -125,10 +123,9 @@ impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
             let is_shared = rows.count() == 1;
             let lanes = if is_shared && !is_first { 0 } else { BLOCK };
             for lane in 0..lanes {
-                let state = if is_shared {
-                    0
-                } else {
-                    self.first + state_at(lane)
+                let state = match is_shared {
+                    true => 0,
+                    false => self.first + state_at(lane),
                 };
                 for (block, number) in blocks.iter_mut().skip(begin).zip(rows.row(state)) {
                     block[lane] = *number;
@@ -177,7 +174,6 @@ impl<'a, T: Copy, const E: usize, const R: usize> Entries<'a, T, E, R> {
         })
     }
 
-    /// Returns entries whose numbers stand in columns of a block.
     pub(crate) fn of_blocks(blocks: &'a [[T; BLOCK]; E]) -> Self {
         Entries {
             sources: blocks.each_ref().map(|block| Source::Column(&block[..])),

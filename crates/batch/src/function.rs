@@ -37,8 +37,7 @@ impl Float for f32 {
 /// A function of arguments with E entries in all, which returns M numbers and takes sines and
 /// cosines of K angles; of one state, or of as many as a vector has lanes.
 ///
-/// Its methods must be `#[inline(always)]`: they are compiled for the vectors of
-/// whoever calls them.
+/// Its methods must be `#[inline(always)]`: they are compiled for the vectors of their caller.
 pub trait Function<const E: usize, const M: usize, const K: usize> {
     /// f64 or f32.
     type Scalar: Float;

@@ -1,10 +1,8 @@
-//! Generated dynamics at any number of states, with the vectors that the
-//! processor has.
+//! Generated dynamics at any number of states, with the vectors that the processor has.
 //!
-//! A generator that is asked for `batch: on` prints a function `NAME_columns` beside
-//! each of its own, which ends here. States stand in columns: a slice for each entry of an
-//! argument, and one for each number of the result. Arguments with a type, such as the load of a
-//! payload, stand in [`Rows`]: one a state, or one for all.
+//! A generator that is asked for `batch: on` prints a function `NAME_columns` beside each of its
+//! own, which ends here. States stand in columns: a slice for each entry of an argument or number
+//! of the result. Arguments with a type, such as a load, stand in [`Rows`]: one a state, or in all.
 //!
 //! ```
 //! use dalembert_batch::{Argument, Floats, Vector};
@@ -33,17 +31,15 @@
 //! # Ok::<(), dalembert_batch::Unequal>(())
 //! ```
 //!
-//! A state's results are those that it has alone, bit for bit: each lane does the
-//! same operations in the same order, and none is contracted to a fused one. Only
-//! which NaN stands for "no number" is the processor's choice. A function that is
-//! [`FUSED`](Function::FUSED) says otherwise: its sines have fused products, too, and
-//! its results the same bits in all vectors, but not those of a single call.
+//! A state's results are those that it has alone, bit for bit: each lane does the same operations in
+//! the same order, and none is contracted to a fused one. Only the bits of a NaN are the processor's
+//! choice. A function that is [`FUSED`](Function::FUSED) says otherwise: its sines have fused
+//! products, too, and its results the same bits in all vectors, but not those of a single call.
 //!
-//! With the feature `std` the processor is asked what it has, once a call: a
-//! plain `cargo build --release` computes in vectors of AVX-512 or AVX2 where
-//! they are, by the crate [`pulp`](https://docs.rs/pulp). Without it, code is
-//! compiled for the target as it is, and the crate needs `core` alone. The
-//! feature `rayon` has the same on all cores, in `parallel`.
+//! With the feature `std` the processor is asked what it has, once a call: a plain release build
+//! computes in vectors of AVX-512 or AVX2 where they are, by the crate
+//! [`pulp`](https://docs.rs/pulp). Without it, code is compiled for the target as it is, and the
+//! crate needs `core` alone. The feature `rayon` has the same on all cores, in `parallel`.
 //!
 //! - `function`: what a generator says of a function; which vectors there are of a float
 //! - `argument`: columns and rows of numbers

@@ -19,8 +19,7 @@ use crate::{Argument, Function, Unequal, Vectors};
 /// nothing to take, and of which the last ones end at nearly one time.
 const TASK: usize = 1 << 19;
 
-/// Less is computed at once: a thread would wake up, which takes ten microseconds and on a virtual
-/// machine more, when nothing is left.
+/// Less is computed before a thread wakes up, in ten microseconds and more on a virtual machine.
 const LEAST: usize = 3 << 20;
 
 /// Runs [`columns`](crate::columns) on all cores.
@@ -59,8 +58,7 @@ where
     Ok(())
 }
 
-/// Returns the states of a task, whole blocks of them; `None` where all are not worth a second
-/// thread, or there is none.
+/// Returns the states of a task, whole blocks of them; `None` where one thread alone computes all.
 fn task(states: usize, bytes: usize) -> Option<usize> {
     let is_much = states.saturating_mul(bytes) >= LEAST && rayon::current_num_threads() > 1;
     is_much.then(|| (TASK / bytes).next_multiple_of(BLOCK))

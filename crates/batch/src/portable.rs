@@ -1,5 +1,4 @@
-//! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`; where it has
-//! none, numbers.
+//! The vectors of the compiled target, of 128 bits, by the crate `wide`; without any, numbers.
 
 use dalembert_sines::text::{self, Products};
 

@@ -21,7 +21,6 @@ pub(crate) fn states_of<T>(results: &[&mut [T]]) -> Result<usize, Unequal> {
     Ok(states)
 }
 
-/// A block of states.
 type Block<'b, T, const E: usize> = [&'b [T; BLOCK]; E];
 
 #[inline(always)]

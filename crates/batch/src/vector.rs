@@ -2,8 +2,7 @@
 
 use dalembert_sines::text::{Floats, Products};
 
-/// The states that are computed before any other: first their sines, then all the rest, so that
-/// neither takes registers from the other.
+/// The states of a pass: first their sines, then the rest, so that neither takes registers.
 pub(crate) const BLOCK: usize = 64;
 
 /// A vector of floats, one for each state.
@@ -37,8 +36,7 @@ pub trait Vector<T>: Floats<T> {
     /// Returns both values of a function for each.
     fn both(self, function: impl Fn(T) -> (T, T)) -> (Self, Self);
 
-    /// Computes sines and cosines, and returns whether they are those of all angles: of far
-    /// ones they are not.
+    /// Computes sines and cosines, and returns whether they hold for all angles: not for far ones.
     fn sincos<P: Products<T>, const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool);
 }
 

@@ -70,7 +70,6 @@ macro_rules! vector {
             fn all(self, value: $float) -> Self {
                 $vector(self.0, self.0.$all(value))
             }
-
             #[inline(always)]
             fn fused(self, factor: Self, addend: Self) -> Self {
                 $vector(self.0, self.0.$fused(self.1, factor.1, addend.1))
@@ -84,17 +83,14 @@ macro_rules! vector {
             fn bits(self) -> $bits {
                 $bits(self.0, cast(self.1))
             }
-
             #[inline(always)]
             fn of_bits(bits: $bits) -> Self {
                 $vector(bits.0, cast(bits.1))
             }
-
             #[inline(always)]
             fn power(self, exponent: usize) -> $bits {
                 $bits(self.0, self.0.$power(1 << exponent))
             }
-
             #[inline(always)]
             fn raised(bits: $bits) -> $bits {
                 $bits(bits.0, bits.0.$shift::<$raised>(bits.1))

@@ -1,5 +1,4 @@
-//! From columns to vectors and back: every state once, in its place, whatever the
-//! length and the vectors.
+//! From columns to vectors and back: every state once, in its place, at any length.
 
 use std::array::from_fn;
 
@@ -39,9 +38,8 @@ impl Function<1, 8, 2> for Operations {
     #[inline(always)]
     fn vectors<V: Vector<f64>>(&[x]: &[V; 1], sin: &[V; 2], cos: &[V; 2]) -> [V; 8] {
         let (floor, fraction) = x.both(|x| (x.floor(), x - x.floor()));
-        let root = (x * x)
-            .sqrt()
-            .mul_add(x.all(1.0 / 3.0), -x.each(f64::abs) * (1.0 / 3.0));
+        let less = -x.each(f64::abs) * (1.0 / 3.0);
+        let root = (x * x).sqrt().mul_add(x.all(1.0 / 3.0), less);
         [sin[0], cos[0], sin[1], cos[1], floor, fraction, root, -x]
     }
 }
@@ -133,10 +131,8 @@ macro_rules! fused {
                             assert!(same || x.is_nan() || x.is_infinite(), "{vectors:?}: {x:e}");
                             assert_eq!(vector.map($float::is_nan), pair.map($float::is_nan));
                             let has_sign = vector[0].is_sign_negative() == x.is_sign_negative();
-                            assert!(
-                                x != 0.0 || has_sign && vector == [x, 1.0],
-                                "{x:?}: {vector:?}"
-                            );
+                            let is_itself = has_sign && vector == [x, 1.0];
+                            assert!(x != 0.0 || is_itself, "{x:?}: {vector:?}");
                             let rounded: [$float; 2] = alone::<$float, Rounded>(x).into();
                             far += usize::from(x.abs() > $float::LARGEST && x.is_finite());
                             others += usize::from(vector != rounded && x.is_finite());
@@ -224,22 +220,17 @@ fn rows_are_of_a_state_or_of_all() {
     let cases = counts.flat_map(|count| ALL.map(|vectors| (count, Some(vectors))));
     for (count, vectors) in cases.chain([(200_001, None)]) {
         let x: Vec<f32> = (0..count).map(|k| k as f32 + 0.5).collect();
-        let rows: Vec<Pair> = (0..count)
-            .map(|k| Pair([f32::NAN, 3.0 - k as f32]))
-            .collect();
+        let row = |k: usize| Pair([f32::NAN, 3.0 - k as f32]);
+        let rows: Vec<Pair> = (0..count).map(row).collect();
         for pairs in [&rows[..], &rows[..1]] {
             let mut results = [(); 3].map(|()| vec![7.0; count]);
             let mut slices = results.each_mut().map(Vec::as_mut_slice);
             run(vectors, &[Columns(&[&x, &x]), Rows(&pairs)], &mut slices).unwrap();
             for (k, x) in x.iter().enumerate() {
                 let y = pairs[k.min(pairs.len() - 1)][1];
-                let expected = [x * y, x - 2.0 * y, x / y];
-                let found = [results[0][k], results[1][k], results[2][k]];
-                assert_eq!(
-                    found.map(f32::to_bits),
-                    expected.map(f32::to_bits),
-                    "{vectors:?} {k}"
-                );
+                let expected = [x * y, x - 2.0 * y, x / y].map(f32::to_bits);
+                let bits = [0, 1, 2].map(|column| results[column][k].to_bits());
+                assert_eq!(bits, expected, "{vectors:?} {k}");
             }
         }
     }

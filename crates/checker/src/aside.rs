@@ -5,7 +5,6 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
-use crate::claim::whole;
 use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Item, between};
@@ -13,20 +12,11 @@ use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::payload;
 use crate::program::ARGUMENTS;
-use crate::read::number;
+use crate::read::{number, whole};
 use crate::rounding::Ranges;
 use crate::sines::Scalar;
 use crate::tolerance::BOX_SLACK;
 
-const TYPES: [&str; 2] = [
-    "pub struct NAME(PUBLIC[REAL; COUNT]);",
-    "impl ::core::ops::Deref for NAME {
-type Target = [REAL; COUNT];
-fn deref(&self) -> &[REAL; COUNT] {
-&self.0
-}
-}",
-];
 const SCALARS: [&str; 2] = ["f64", "f32"];
 const STATE: [&str; 3] = [ARGUMENTS[0].0, ARGUMENTS[1].0, ARGUMENTS[2].0];
 const BOX: &str = "pub const BOX: StateBox = StateBox {";
@@ -79,22 +69,17 @@ impl<'k> FileFacts<'k> {
             ("Load", "", load),
         ] {
             for scalar in SCALARS {
-                items.extend(TYPES.map(|text| {
-                    let text = text
-                        .replace("NAME", name)
-                        .replace("REAL", scalar)
-                        .replace("PUBLIC", public);
-                    text.replace("COUNT", &count.to_string())
-                }));
+                let array = format!("[{scalar}; {count}]");
+                items.insert(format!("pub struct {name}({public}{array});"));
+                items.insert(format!(
+                    "impl ::core::ops::Deref for {name} {{\ntype Target = {array};\n\
+                     fn deref(&self) -> &{array} {{\n&self.0\n}}\n}}"
+                ));
             }
         }
-        let kinds = [
-            (false, "Payload"),
-            (true, "Payload"),
-            (false, "Body"),
-            (true, "Body"),
-        ];
-        items.extend(kinds.map(|(is_single, kind)| payload::rust(is_single, kind)));
+        for kind in ["Payload", "Body"] {
+            items.extend([false, true].map(|is_single| payload::rust(is_single, kind)));
+        }
         items.insert(payload::rust_bodies(setting.bodies.len(), &setting.zeros));
         FileFacts {
             setting,
@@ -110,9 +95,8 @@ impl<'k> FileFacts<'k> {
         let Some((&BOX, behind)) = lines.split_first() else {
             return;
         };
-        let Some(ends) =
-            ends(behind, is_single).filter(|ends| self.has(item.module, ends, is_single))
-        else {
+        let ends = ends(behind, is_single);
+        let Some(ends) = ends.filter(|ends| self.has(item.module, ends, is_single)) else {
             return;
         };
         self.add(item.module, lines.join("\n"));
@@ -125,19 +109,16 @@ impl<'k> FileFacts<'k> {
                 structure += &format!("\npub {name}: [[{scalar}; 2]; {count}],");
                 arguments.push(format!("{name}: &[{scalar}; {count}]"));
                 for joint in (0..count).filter(|joint| ends[*joint].is_some()) {
-                    let (entry, bounds) =
-                        (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
-                    checks += "\nlet inside = inside & ";
-                    checks += &format!("({bounds}[0] <= {entry}) & ({entry} <= {bounds}[1]);");
+                    let entry = format!("{name}[{joint}]");
+                    checks += &format!("\nlet inside = inside & (BOX.{entry}[0] <= {entry})");
+                    checks += &format!(" & ({entry} <= BOX.{entry}[1]);");
                 }
             }
             let arguments = arguments.join(", ");
             self.add(item.module, structure + "\n}");
             let head = format!("pub fn in_box({arguments}) -> bool {{");
-            self.add(
-                item.module,
-                format!("{head}\nlet inside = true;{checks}\ninside\n}}"),
-            );
+            let test = format!("{head}\nlet inside = true;{checks}\ninside\n}}");
+            self.add(item.module, test);
         }
     }
 
@@ -207,27 +188,25 @@ impl<'k> FileFacts<'k> {
         let Some(held) = self.held.get(module) else {
             return false;
         };
+        let setting = self.setting;
         (0..3).all(|place| {
             let joint_ends = ends[place].as_deref();
-            let base = if place == 0 { 0 } else { self.setting.base() };
-            let is_locked = |index: usize| {
-                let joint = index.checked_sub(base);
-                joint.is_some_and(|joint| self.setting.is_locked(joint))
+            let is_locked = |index: usize| match place {
+                0 => setting.is_locked(index),
+                _ => setting.is_held(index),
             };
-            let count = self.setting.entries(place);
+            let is_free =
+                |joint| place == 0 && setting.turns_by(joint) && !setting.is_limited(joint);
+            let count = setting.entries(place);
             let is_known = |joint: usize| match joint_ends.and_then(|pairs| pairs[joint]) {
                 None if is_locked(joint) => true,
                 None if place == 0 => {
-                    let is_bounded = held.bounded[0] && self.setting.is_limited(joint);
+                    let is_bounded = held.bounded[0] && setting.is_limited(joint);
                     !is_bounded && !held.polynomials.contains(&joint)
                 }
                 None => !held.bounded[place],
                 // Polynomials that take off whole turns are good far beyond one.
-                Some([low, high])
-                    if place == 0
-                        && self.setting.turns_by(joint)
-                        && !self.setting.is_limited(joint) =>
-                {
+                Some([low, high]) if is_free(joint) => {
                     let far = Scalar::new(is_single).far;
                     let is_far = high <= far * (1.0 + BOX_SLACK) && low >= -far * (1.0 + BOX_SLACK);
                     is_far && low <= -PI && PI <= high
@@ -275,14 +254,8 @@ fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
             ends[place?] = Some(Vec::new());
         } else if let Some(pair) = between(line, "[", "],") {
             let (low, high) = pair.split_once(", ")?;
-            let is_open = SCALARS.iter().any(|scalar| {
-                [low, high]
-                    == [
-                        format!("{scalar}::NEG_INFINITY"),
-                        format!("{scalar}::INFINITY"),
-                    ]
-            });
-            let range = match is_open {
+            let open = |scalar: &str| format!("{scalar}::NEG_INFINITY, {scalar}::INFINITY");
+            let range = match SCALARS.iter().any(|scalar| pair == open(scalar)) {
                 true => None,
                 false => Some([number(low, is_single)?, number(high, is_single)?]),
             };

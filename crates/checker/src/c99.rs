@@ -67,6 +67,8 @@ const LOOP: &str = "#if defined(__GNUC__)\n__attribute__((flatten))\n#endif";
 const BEHIND: &str = "#if WHEN\n#pragma GCC pop_options\n#endif\n#endif";
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
+/// The results of functions that compute no dynamics.
+pub(crate) const WRITTEN: [&str; 3] = [" pi[", " numbers[", " into["];
 const LIBRARY: [&str; 5] = ["sin", "cos", "sqrt", "fma", "fabs"];
 
 /// The first parameter and the ending of the name of a function that is told of far angles, of one
@@ -120,12 +122,8 @@ pub(crate) fn functions<'t>(
     };
     take(&mut lines, &known(&format!("{BEFORE}{loops}")))?;
     let macros = ["FORGET(", "FOUR("].map(|suffix| format!("{name}_{suffix}"));
-    let has_macro = |line: &str| {
-        macros
-            .iter()
-            .any(|macro_name| line.contains(macro_name.as_str()))
-    };
-    if lines.iter().any(|line| has_macro(line.1)) {
+    let has_macro = |(_, line): &(usize, &str)| macros.iter().any(|word| line.contains(word));
+    if lines.iter().any(has_macro) {
         take(&mut lines, &known(LANES))?;
     }
     if let Some(places) = places.filter(|_| lines.first().is_some_and(|line| line.1 == "enum {")) {
@@ -143,34 +141,24 @@ pub(crate) fn functions<'t>(
             take(&mut lines, &sines)?;
             continue;
         }
+        let ensure = |holds: bool| holds.then_some(()).ok_or_else(|| fault(first));
         let mut heads = Vec::new();
         let candidate = item(&mut lines, |head| {
             if head == "typedef struct {" {
                 return false;
             }
             heads.push(head);
-            let ends = [
-                "(const size_t n, ",
-                "_in_box(",
-                " pi[",
-                " numbers[",
-                " into[",
-            ];
-            !has_loops || ends.iter().any(|end| head.contains(end))
+            let mut marks = WRITTEN.iter().chain(&["(const size_t n, ", "_in_box("]);
+            !has_loops || marks.any(|mark| head.contains(mark))
         });
         let is_plain = |item: &Item| {
             item.text.ends_with("\n}\n") && !item.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut item = candidate.filter(is_plain).ok_or_else(|| fault(first))?;
-        // Functions of these names have to be those of `together`.
-        let mut names = heads.iter().copied().filter_map(symbol);
-        if names.any(|(symbol_name, _)| {
-            symbol_name.ends_with("_sincos") || symbol_name.contains("_sines_")
-        }) {
-            return Err(fault(first));
-        }
         // Behind the one that is told whether angles are far, and before that of many states.
         for (full, end) in heads.into_iter().filter_map(symbol) {
+            // Functions of these names have to be those of `together`.
+            ensure(!full.ends_with("_sincos") && !full.contains("_sines_"))?;
             match end {
                 "_any" => item.symbols.any = full.to_owned(),
                 "_batch" => item.symbols.batch = full.to_owned(),
@@ -180,12 +168,8 @@ pub(crate) fn functions<'t>(
         (item.module, _) = word(name, item.name, "").ok_or_else(|| fault(first))?;
         // Two ways to write the header's name would be two modules, each with boxes of its own.
         let base = item.name.split_at(name.len()).0;
-        if items
-            .first()
-            .is_some_and(|first_item| !first_item.name.starts_with(base))
-        {
-            return Err(fault(first));
-        }
+        let is_same = |other: &Item| other.name.starts_with(base);
+        ensure(items.first().is_none_or(is_same))?;
         let calls = |name: &&str| {
             let mut ends = ["(", "f("].iter();
             ends.any(|end| item.text.contains(&format!("{name}{end}")))
@@ -200,14 +184,10 @@ pub(crate) fn functions<'t>(
             symbols.prefix += "_f32";
         }
         symbols.macros = name.to_owned();
-        let structure = item
-            .text
-            .strip_prefix("typedef struct {")
-            .and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
-        symbols.structure = structure.map(|(name, _)| name.to_owned());
-        if !symbols.structure.iter().all(|name| has_only(name, "")) {
-            return Err(fault(first));
-        }
+        let structure = item.text.strip_prefix("typedef struct {");
+        let named = structure.and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
+        symbols.structure = named.map(|(name, _)| name.to_owned());
+        ensure(symbols.structure.iter().all(|name| has_only(name, "")))?;
         items.push(item);
     }
     let end = source.lines().count();

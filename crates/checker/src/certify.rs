@@ -7,7 +7,7 @@ use crate::aside::{FileFacts, is_body};
 use crate::c99;
 use crate::claim::{Claim, FunctionClaim, ToleranceClaim};
 use crate::compare::{Literals, compare};
-use crate::cost::{self, ranges};
+use crate::cost::{self, bodies_of, ranges};
 use crate::defaults::{Default, is_default};
 use crate::fault::Fault;
 use crate::file::{self, Item};
@@ -17,7 +17,7 @@ use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function, functions, length};
 use crate::identity::{Base, Points, Statement, aligned, check, robot};
-use crate::program::{ARGUMENTS, LOAD, Operand, Program, argument};
+use crate::program::{ARGUMENTS, LOAD, Operand, Program};
 use crate::read::{self, Argument, Head, Source, Text};
 use crate::rounding::Ranges;
 use crate::sines;
@@ -103,11 +103,8 @@ pub struct Demand<'d> {
 pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Result<Report, Fault> {
     let (scene, tolerance) = (demand.scene, demand.tolerance);
     let mut document = Claim::read(claim)?;
-    if document
-        .functions
-        .iter()
-        .any(|function| function.planned.is_some())
-    {
+    let is_plan = |function: &FunctionClaim| function.planned.is_some();
+    if document.functions.iter().any(is_plan) {
         let why = "this is a search plan, not the claim of a file";
         return Err(Fault::Claim(why.into()));
     }
@@ -115,16 +112,13 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     let mut file = robot::read(robot).map_err(of_robot)?;
     let in_scene = |function: &FunctionClaim| function.scene.as_deref() == scene;
     document.functions.retain(in_scene);
-    let load = document
-        .functions
-        .iter()
-        .find(|function| function.function == LOAD);
+    let is_load = |function: &&FunctionClaim| function.function == LOAD;
+    let load = document.functions.iter().find(is_load);
     let links = load.map_or(&[][..], |load_claim| &load_claim.bodies);
-    let defaults = DEFAULTS
-        .iter()
-        .map(|name| Ok((*name, file.defaults(name, links)?)))
-        .collect::<Result<Vec<_>, String>>()
-        .map_err(of_robot)?;
+    let mut defaults: Vec<Default> = Vec::new();
+    for name in DEFAULTS {
+        defaults.push((name, file.defaults(name, links).map_err(of_robot)?));
+    }
     if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {
         let of_rows = |why: String| Fault::Claim(format!("`aligned`: {why}"));
         let rows = robot::read(rows).map_err(of_rows)?;
@@ -133,13 +127,8 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     }
     let mut setting = file.setting(scene).map_err(of_robot)?;
     if let Some(load_claim) = load {
-        let numbers = &defaults[0].1;
-        let taken = setting.take(
-            &load_claim.arguments,
-            links,
-            numbers,
-            load_claim.keeps_zeros,
-        );
+        let (arguments, keeps_zeros) = (&load_claim.arguments, load_claim.keeps_zeros);
+        let taken = setting.take(arguments, links, &defaults[0].1, keeps_zeros);
         taken.map_err(Fault::Claim)?;
     }
     let is_c = source.starts_with(c99::HEAD);
@@ -152,22 +141,14 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
     }
     let work = Work::default();
     let constants = document.constants(&work)?;
-    let load = document
-        .functions
-        .iter()
-        .find(|function| function.function == LOAD);
     let real = if is_c { "float " } else { "[f32; " };
     let singles = items.iter().filter(|item| item.text.contains(real));
     let payload = setting.body().map_err(of_robot)?;
     let bodies = setting.bodies_given().map_err(of_robot)?;
-    let takes_payload = bodies
-        .iter()
-        .any(|entry| argument("payload") == Some(entry.0));
+    let program = |function: &FunctionClaim| function.program(&constants);
     let whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
-        load: load
-            .map(|function| function.program(&constants))
-            .transpose(),
+        load: load.map(program).transpose(),
         constants,
         claim: &document,
         ranges: ranges(&setting, &bodies).map_err(of_robot)?,
@@ -192,22 +173,18 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
         line: item.line,
         result,
     };
-    let load = whole
-        .load()
-        .ok()
-        .flatten()
-        .map_or(0, |program| program.outputs.len());
     let mut state = ReportState {
         identities: HashMap::new(),
         points: Points::new(&setting, &[&whole.seed]),
-        known: FileFacts::new(&setting, &whole.ranges, load),
+        known: FileFacts::new(&setting, &whole.ranges, whole.load_length().unwrap_or(0)),
     };
     let mut heads = HashSet::new();
     let mut is_twice = |item: &Item| -> Result<(), Fault> {
         let head = item.text.lines().next().unwrap_or("");
-        let name = Some(item.name)
-            .filter(|name| !name.is_empty())
-            .unwrap_or(head);
+        let name = match item.name {
+            "" => head,
+            name => name,
+        };
         let twice = || Fault::Text(item.line, format!("`{name}` is defined twice"));
         let is_first = heads.insert((item.module.to_owned(), name.to_owned()));
         is_first.then_some(()).ok_or_else(twice)
@@ -243,13 +220,12 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
             lines.push(line(item, name.to_owned(), Err(why)));
         }
     }
-    let are_of_links = |entry: &&(usize, Vec<BodyRange>)| argument("bodies") == Some(entry.0);
-    let of_links = whole.bodies.iter().filter(are_of_links);
-    let ranges = of_links.flat_map(|entry| entry.1.iter().copied());
+    let takes_payload = !bodies_of(&whole.bodies, "payload").is_empty();
+    let of_links = bodies_of(&whole.bodies, "bodies").iter().copied();
     Ok(Report {
         lines,
         is_unlimited: setting.is_unlimited(),
-        bodies: setting.bodies.iter().copied().zip(ranges).collect(),
+        bodies: setting.bodies.iter().copied().zip(of_links).collect(),
         payloads: takes_payload.then(|| (payload.unwrap_or_default(), payload.is_none())),
     })
 }
@@ -258,8 +234,8 @@ pub fn certify(source: &str, claim: &str, robot: &str, demand: &Demand) -> Resul
 fn is_beside(item: &Item) -> bool {
     let name = item.name.strip_prefix(item.module);
     let is_box = item.name == "in_box" || name == Some("_in_box");
-    let mut written = [" pi[", " numbers[", " into["].iter();
-    is_box || item.name.is_empty() || written.any(|mark| item.text.contains(mark))
+    let is_written = |mark: &&str| item.text.contains(mark);
+    is_box || item.name.is_empty() || c99::WRITTEN.iter().any(is_written)
 }
 
 /// The finding that a program is the robot's, once it is asked for; how often its function came.
@@ -273,7 +249,6 @@ struct ReportState<'w> {
 }
 
 struct Whole<'w> {
-    /// The seed of all draws, from robot, claim and text.
     seed: String,
     claim: &'w Claim,
     constants: Vec<Exact>,
@@ -361,11 +336,8 @@ impl<'w> Whole<'w> {
             let why = "it divides, and no result of it asks for that";
             return Err(refused(why.into()));
         }
-        let base = claimed.base(
-            &self.constants,
-            self.setting.links(),
-            self.setting.base() > 0,
-        )?;
+        let (links, floats) = (self.setting.links(), self.setting.base() > 0);
+        let base = claimed.base(&self.constants, links, floats)?;
         let head = self.head(claimed, &function, &base, self.is_single(item))?;
         let read = self.read(&head, item)?;
         state.known.items.extend(structure(&head));
@@ -492,7 +464,7 @@ impl<'w> Whole<'w> {
         is_single: bool,
     ) -> Result<Head<'h>, Fault> {
         let sizes = self.setting.sizes();
-        let load = self.load()?.map_or(0, |program| program.outputs.len());
+        let load = self.load_length()?;
         let arguments = function.arguments.iter().map(|&place| {
             let (name, axis) = ARGUMENTS[place];
             Argument {
@@ -557,6 +529,10 @@ impl<'w> Whole<'w> {
         self.load.as_ref().map(Option::as_ref).map_err(Fault::clone)
     }
 
+    fn load_length(&self) -> Result<usize, Fault> {
+        Ok(self.load()?.map_or(0, |program| program.outputs.len()))
+    }
+
     fn follows(&self, item: &Item, known: &FileFacts) -> Result<(), Fault> {
         let is_single = self.singles.contains(item.module);
         if is_default(item, self.is_c, is_single, &self.defaults) {
@@ -582,14 +558,13 @@ impl<'w> Whole<'w> {
 
 /// A load has no results of its own: the functions that take it give it its meaning.
 fn function(claimed: &FunctionClaim) -> Result<Function, String> {
-    let is_load = claimed.function == LOAD && claimed.results == [LOAD];
-    if claimed.results.is_empty() {
-        return Err("it has no results".into());
-    }
-    if claimed.function == LOAD && !is_load {
-        return Err("it has other results".into());
-    }
-    let results = if is_load { &[][..] } else { &claimed.results };
+    let is_load = claimed.function == LOAD;
+    let results: &[String] = match claimed.results.as_slice() {
+        [] => return Err("it has no results".into()),
+        [one] if is_load && one == LOAD => &[],
+        _ if is_load => return Err("it has other results".into()),
+        results => results,
+    };
     let function = Function::named(&claimed.function, &claimed.arguments, results)?;
     match is_load && function.arguments.is_empty() {
         true => Err("a load is of bodies or drives".into()),
@@ -598,11 +573,9 @@ fn function(claimed: &FunctionClaim) -> Result<Function, String> {
 }
 
 fn structure(head: &Head) -> Option<String> {
-    let name = head.structure()?;
-    let fields: String = head
-        .fields
-        .iter()
-        .map(|(name, shape)| format!("pub {name}: {},\n", head.kind(shape)))
-        .collect();
-    Some(format!("pub struct {name} {{\n{fields}}}"))
+    let mut text = format!("pub struct {} {{\n", head.structure()?);
+    for (name, shape) in &head.fields {
+        text += &format!("pub {name}: {},\n", head.kind(shape));
+    }
+    Some(text + "}")
 }

@@ -13,16 +13,15 @@
 //! is the same document: of each function, too, what was searched for and how it was found.
 
 use std::collections::HashSet;
+use std::ops::Not;
 
 use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
-#[cfg(feature = "certify")]
 use crate::identity::Base;
-#[cfg(feature = "certify")]
 use crate::identity::exact::{Exact, LONGEST, Sines};
 use crate::program::{Operand, Program, Step, argument};
-#[cfg(feature = "certify")]
+use crate::read::whole;
 use crate::work::Work;
 
 /// The version that is read.
@@ -31,7 +30,6 @@ pub const VERSION: u32 = 2;
 pub const MOST_BYTES: usize = 32 << 20;
 /// The most constants, and the most operations of a function.
 const MOST: usize = 1 << 17;
-/// The most functions of a claim.
 const MOST_FUNCTIONS: usize = 1 << 12;
 /// The most results of a function: of 64 joints all h_ikm are 2¹⁸.
 const MOST_RESULTS: usize = 1 << 19;
@@ -92,7 +90,7 @@ pub struct FunctionClaim {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bodies: Vec<usize>,
     /// True if numbers of these bodies that are zero in the robot file stay zero.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "Not::not")]
     pub keeps_zeros: bool,
     /// The results in order, each by a function that has it: `gravity.c`, `jacobian.jacobian@camera`.
     pub results: Vec<String>,
@@ -132,7 +130,7 @@ pub struct SearchRecord {
     /// The number of joints.
     pub joints: usize,
     /// True if six coordinates of a base that floats come before those of the joints.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "Not::not")]
     pub floats: bool,
     /// The joints with which limbs begin, from one, where results are over limbs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -195,20 +193,17 @@ impl Claim {
         }
         let (mut keys, mut symbols) = (HashSet::new(), HashSet::new());
         for function in &claim.functions {
-            if !keys.insert((&function.function, &function.scene, &function.planned)) {
-                return refuse(format!("`{}` is defined twice", function.function));
+            let (name, scene) = (&function.function, &function.scene);
+            if !keys.insert((name, scene, &function.planned)) {
+                return refuse(format!("`{name}` is defined twice"));
             }
-            let mut own_symbols = function.symbols.iter();
-            if let Some(twice) = own_symbols.find(|name| !symbols.insert((*name, &function.scene)))
-            {
+            let mut names = function.symbols.iter();
+            if let Some(twice) = names.find(|symbol| !symbols.insert((*symbol, scene))) {
                 return refuse(format!("`{twice:.40}` is defined twice"));
             }
             // It is printed where nothing else may stand.
-            if function.planned.is_none() && !is_name(&function.function) {
-                return refuse(format!(
-                    "`{:.40}` is not the name of a function",
-                    function.function
-                ));
+            if function.planned.is_none() && !is_name(name) {
+                return refuse(format!("`{name:.40}` is not the name of a function"));
             }
         }
         Ok(claim)
@@ -225,7 +220,6 @@ impl Claim {
     ///
     /// # Errors
     /// The first text that is not a constant.
-    #[cfg(feature = "certify")]
     pub fn constants(&self, work: &Work) -> Result<Vec<Exact>, Fault> {
         /// The most angles that constants have sines of.
         const MOST_ANGLES: usize = 1 << 10;
@@ -260,10 +254,6 @@ impl Claim {
         }
         Ok(constants)
     }
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 fn is_name(name: &str) -> bool {
@@ -307,22 +297,19 @@ impl FunctionClaim {
                 let operation = word[left.len()..].chars().next()?;
                 Some((operation, [operand(left)?, operand(right)?]))
             };
-            let step = step().ok_or_else(|| self.refused(word))?;
-            steps.push(step);
+            steps.push(step().ok_or_else(|| self.refused(word))?);
             if steps.len() > MOST {
                 return Err(self.refused("more than 131072 operations"));
             }
         }
         let quotients = steps.iter().filter(|step| step.0 == '/').count();
-        let outputs = returns
-            .map(|word| {
-                let bare = word.strip_prefix('-').unwrap_or(word);
-                let operand = self
-                    .operand(bare, steps.len(), constants)
-                    .ok_or_else(|| self.refused(word))?;
-                Ok((bare.len() < word.len(), operand))
-            })
-            .collect::<Result<Vec<_>, Fault>>()?;
+        let output = |word: &str| {
+            let bare = word.strip_prefix('-').unwrap_or(word);
+            let operand = self.operand(bare, steps.len(), constants);
+            let is_negative = bare.len() < word.len();
+            Ok((is_negative, operand.ok_or_else(|| self.refused(word))?))
+        };
+        let outputs = returns.map(output).collect::<Result<Vec<_>, Fault>>()?;
         if outputs.len() > MOST_RESULTS {
             return Err(self.refused("more results than are looked at"));
         }
@@ -343,10 +330,8 @@ impl FunctionClaim {
             return Some(Operand::Constant(constant.clone()));
         }
         let takes = |name: &str| self.arguments.iter().any(|argument| argument == name);
-        if let Some((name, index)) = word
-            .strip_suffix(']')
-            .and_then(|entry| entry.split_once('['))
-        {
+        if let Some(entry) = word.strip_suffix(']') {
+            let (name, index) = entry.split_once('[')?;
             let place = argument(name).filter(|_| takes(name))?;
             return Some(Operand::Entry(place, whole(index)?));
         }
@@ -364,7 +349,6 @@ impl FunctionClaim {
     ///
     /// # Errors
     /// The first word that is no parameter, or no value.
-    #[cfg(feature = "certify")]
     pub fn base(&self, constants: &[Exact], links: usize, floats: bool) -> Result<Base, Fault> {
         let most = 12 * (links + usize::from(floats));
         let is_long = |text: &String| text.split_ascii_whitespace().nth(most).is_some();
@@ -393,17 +377,9 @@ impl FunctionClaim {
     }
 }
 
-pub(crate) fn whole(word: &str) -> Option<usize> {
-    let number = word.parse().ok()?;
-    (word == format!("{number}")).then_some(number)
-}
-
 /// Links are counted from one; a base that floats is zero.
-#[cfg(feature = "certify")]
 fn parameter(name: &str, links: usize, floats: bool) -> Option<usize> {
-    const NAMES: [&str; 10] = [
-        "m", "mx", "my", "mz", "Ixx", "Iyy", "Izz", "Ixy", "Iyz", "Ixz",
-    ];
+    const NAMES: &str = "m mx my mz Ixx Iyy Izz Ixy Iyz Ixz";
     let digits = name.find(|c: char| c.is_ascii_digit())?;
     let number = whole(&name[digits..]).filter(|number| *number <= links)?;
     let (link, drives) = (number.checked_sub(1), 10 * (links + usize::from(floats)));
@@ -412,7 +388,7 @@ fn parameter(name: &str, links: usize, floats: bool) -> Option<usize> {
         ("viscous", link) => Some(drives + links + link?),
         (prefix, link) => {
             let body = if floats { number } else { link? };
-            Some(10 * body + NAMES.iter().position(|name| *name == prefix)?)
+            Some(10 * body + NAMES.split(' ').position(|name| name == prefix)?)
         }
     }
 }

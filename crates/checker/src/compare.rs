@@ -14,19 +14,17 @@ const COMPARED: u64 = 20_000;
 
 /// The literals that were compared with each constant: no pair is compared twice.
 #[derive(Debug, Default)]
-pub(crate) struct Literals {
-    known: RefCell<HashMap<(usize, u64, bool), bool>>,
-}
+pub(crate) struct Literals(RefCell<HashMap<(usize, u64, bool), bool>>);
 
 impl Literals {
     fn are_same(&self, value: &Exact, literal: f64, is_single: bool, work: &Work) -> bool {
         let key = (value.address(), literal.to_bits(), is_single);
-        if let Some(known) = self.known.borrow().get(&key) {
+        if let Some(known) = self.0.borrow().get(&key) {
             return *known;
         }
         let cost = if literal == 0.0 { 10 } else { 1 };
         let is_same = work.spend(cost, COMPARED).is_ok() && value.is_nearest(literal, is_single);
-        self.known.borrow_mut().insert(key, is_same);
+        self.0.borrow_mut().insert(key, is_same);
         is_same
     }
 }

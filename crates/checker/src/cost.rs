@@ -85,10 +85,8 @@ impl Findings {
 
     /// Returns the largest cost of the results that are bounded, or of those that are measured.
     pub fn worst(&self, is_bounded: bool) -> Option<&Cost> {
-        let costs = self
-            .costs
-            .iter()
-            .filter(|cost| cost.is_bounded == is_bounded);
+        let is_such = |cost: &&Cost| cost.is_bounded == is_bounded;
+        let costs = self.costs.iter().filter(is_such);
         costs.max_by(|a, b| a.units.total_cmp(&b.units))
     }
 }
@@ -120,13 +118,8 @@ impl Subject<'_> {
         let mut ranges = self.ranges.clone();
         if self.load.is_some() {
             rounding.load = of_load.bounds(&ranges, None).results;
-            let exact = rounding
-                .load
-                .iter()
-                .map(|result| result.exact)
-                .map(|interval| [interval.low, interval.high])
-                .collect();
-            ranges[argument(LOAD).unwrap_or_default()] = exact;
+            let exact = rounding.load.iter().map(|result| result.exact.ends());
+            ranges[argument(LOAD).unwrap_or_default()] = exact.collect();
         }
         let has_quotients = read.program.has_quotients();
         let divides = |(_, operand): &(bool, Operand<f64>)| match operand {
@@ -135,21 +128,11 @@ impl Subject<'_> {
         };
         let divides: Vec<bool> = read.program.outputs.iter().map(divides).collect();
         let is_measured = divides.contains(&true);
-        if let (true, Some(points)) = (is_measured, points.three()) {
-            let load = rounding.load.len();
-            hidden::check(
-                self.program,
-                &self.read.loops,
-                self.setting,
-                load,
-                points,
-                self.work,
-            )?;
+        if let (true, Some(points)) = (is_measured, points.first(3).first_chunk()) {
+            let (program, setting, load) = (self.program, self.setting, rounding.load.len());
+            hidden::check(program, &read.loops, setting, load, points, self.work)?;
         }
-        let bounded = divides
-            .iter()
-            .filter(|has_quotient| !**has_quotient)
-            .count();
+        let bounded = divides.iter().filter(|is_divided| !**is_divided).count();
         let steps = read.program.steps.len();
         self.work.spend(steps * (bounded + 4), 20)?;
         let over_box = rounding.bounds(&ranges, None);
@@ -162,6 +145,7 @@ impl Subject<'_> {
             sampler: Sampler::new(read, &rounding, joints),
             load: Sampler::new(&load, &of_load, joints),
             lengths: lengths.collect(),
+            divides: &divides,
             work: self.work,
             states: 0,
             sizes: vec![0.0; divides.len()],
@@ -183,7 +167,7 @@ impl Subject<'_> {
         let count = if is_measured { STATES } else { LOOKED_AT };
         for _ in 0..count / LANES {
             let drawn: [FloatState; LANES] = from_fn(|_| states.next());
-            let heights = samples.look(drawn.each_ref(), &divides)?;
+            let heights = samples.look(drawn.each_ref())?;
             worst.extend(heights.into_iter().zip(drawn));
         }
         // Climbs lead to states that were not drawn.
@@ -191,10 +175,8 @@ impl Subject<'_> {
         if is_measured {
             self.steps_are_seen(&over_box, &has_quotients, &samples.steps)?;
             worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-            for (height, state) in worst.into_iter().take(CLIMBS) {
-                states.climb((height, state), CLIMBED, |next| {
-                    samples.look(next, &divides)
-                })?;
+            for start in worst.into_iter().take(CLIMBS) {
+                states.climb(start, CLIMBED, |next| samples.look(next))?;
             }
         }
         let shapes = head.fields.iter().map(|field| field.1.as_slice());
@@ -234,9 +216,8 @@ impl Subject<'_> {
             }
             let asks = self.function.fields.get(field).map(Field::divides);
             if !is_bounded && asks != Some(true) {
-                return Err(unsure(format!(
-                    "`{name}` divides, and does not ask for that"
-                )));
+                let why = format!("`{name}` divides, and does not ask for that");
+                return Err(unsure(why));
             }
             let unbounded = samples.unbounded[field];
             // In f64 a result that divides must not be so near to a division by zero.
@@ -278,13 +259,8 @@ impl Subject<'_> {
         has_quotients: &[bool],
         magnitudes: &[f64],
     ) -> Result<(), Fault> {
-        let steps = bounds
-            .steps
-            .iter()
-            .zip(has_quotients)
-            .zip(magnitudes)
-            .enumerate();
-        for (step, ((bound, has_quotient), magnitude)) in steps {
+        let steps = bounds.steps.iter().zip(has_quotients).zip(magnitudes);
+        for (step, ((bound, has_quotient), magnitude)) in steps.enumerate() {
             let most = bound.exact.magnitude();
             if !has_quotient && !self.head.is_single && !(most <= MOST_RATIO * magnitude) {
                 let why =
@@ -302,11 +278,11 @@ struct SampledSizes<'s> {
     load: Sampler<'s>,
     /// The numbers of entries of each result.
     lengths: Vec<usize>,
+    divides: &'s [bool],
     work: &'s Work,
     states: usize,
     sizes: Vec<f64>,
     errors: Vec<f64>,
-    /// The largest magnitude of each step.
     steps: Vec<f64>,
     /// At how many states each result is near to the exact one.
     near: Vec<usize>,
@@ -317,11 +293,7 @@ struct SampledSizes<'s> {
 impl SampledSizes<'_> {
     /// Looks at states; returns the largest error of what divides at each, relative to its result
     /// there.
-    fn look(
-        &mut self,
-        states: [&FloatState; LANES],
-        divides: &[bool],
-    ) -> Result<[f64; LANES], Fault> {
+    fn look(&mut self, states: [&FloatState; LANES]) -> Result<[f64; LANES], Fault> {
         self.work
             .spend(LANES, self.sampler.work() + self.load.work())?;
         let loads = self.load.run(states, &[]);
@@ -333,12 +305,12 @@ impl SampledSizes<'_> {
         let results: Vec<Lanes> = self.sampler.results(&values).collect();
         Ok(from_fn(|lane| {
             self.states += 1;
-            self.height(|k| results[k].at(lane), divides)
+            self.height(|k| results[k].at(lane))
         }))
     }
 
     /// Looks at the results at a state; returns the largest error of what divides.
-    fn height(&mut self, result: impl Fn(usize) -> Near, divides: &[bool]) -> f64 {
+    fn height(&mut self, result: impl Fn(usize) -> Near) -> f64 {
         let (mut height, mut first) = (0.0f64, 0);
         for (field, length) in self.lengths.iter().enumerate() {
             let entries = first..first + length;
@@ -356,7 +328,7 @@ impl SampledSizes<'_> {
             }
             self.unbounded[field] += usize::from(!error.is_finite());
             self.near[field] += usize::from(error <= SHARE * size);
-            if divides[first..first + length].contains(&true) {
+            if self.divides[first..first + length].contains(&true) {
                 height = height.max(error / size);
             }
             first += length;
@@ -367,16 +339,19 @@ impl SampledSizes<'_> {
 
 pub(crate) fn polynomials(read: &read::ReadFunction) -> impl Iterator<Item = usize> {
     let is_polynomial = |sine: &&read::SinePair| matches!(sine.source, Source::Polynomial(_));
-    read.sines
-        .iter()
-        .filter(is_polynomial)
-        .map(|sine| sine.joint)
+    let sines = read.sines.iter().filter(is_polynomial);
+    sines.map(|sine| sine.joint)
 }
 
 /// Returns the larger one; what is no number counts as larger.
 fn worse(before: f64, error: f64) -> f64 {
     let is_worse = error > before || error.is_nan();
     if is_worse { error } else { before }
+}
+
+pub(crate) fn bodies_of<'b>(bodies: &'b [(usize, Vec<BodyRange>)], name: &str) -> &'b [BodyRange] {
+    let of = bodies.iter().find(|entry| argument(name) == Some(entry.0));
+    of.map_or(&[], |entry| &entry.1)
 }
 
 pub(crate) fn ranges(
@@ -392,9 +367,8 @@ pub(crate) fn ranges(
             "wrench" => [-WRENCH, WRENCH],
             "damping" => DAMPING,
             "payload" | "bodies" => {
-                let of = bodies.iter().find(|entry| argument(name) == Some(entry.0));
-                let argument_bodies = of.into_iter().flat_map(|entry| &entry.1);
-                return Ok(argument_bodies.flat_map(|body| body.ranges()).collect());
+                let ranges = bodies_of(bodies, name).iter().map(|body| body.ranges());
+                return Ok(ranges.flatten().collect());
             }
             "armature" | "viscous" => {
                 let defaults = setting.file.defaults(name, &[])?;

@@ -30,21 +30,18 @@ fn rust_numbers<'t>(text: &'t str, name: &str, is_single: bool) -> Option<Vec<&'
     }
     let (kind, list) = text.split_once("] = [")?;
     let list: Vec<&str> = list.strip_suffix("]; ")?.split(", ").collect();
-    let (name, real) = (
-        name.to_ascii_uppercase(),
-        if is_single { "f32" } else { "f64" },
-    );
-    (kind == format!("pub const {name}: [{real}; {}", list.len())).then_some(list)
+    let real = if is_single { "f32" } else { "f64" };
+    let (constant, count) = (name.to_ascii_uppercase(), list.len());
+    (kind == format!("pub const {constant}: [{real}; {count}")).then_some(list)
 }
 
 fn c_numbers<'t>(text: &'t str, item: &Item, name: &str, is_single: bool) -> Option<Vec<&'t str>> {
     let prefix = item.name.strip_suffix(&format!("_{name}"))?;
     let (head, body) = text.split_once(" { ")?;
     let lines: Vec<&str> = body.strip_suffix("; } ")?.split("; ").collect();
-    let [real, end] = if is_single {
-        ["float", "F"]
-    } else {
-        ["double", ""]
+    let [real, end] = match is_single {
+        true => ["float", "F"],
+        false => ["double", ""],
     };
     let (kind, entry, count) = match name {
         "bodies" => (format!("{prefix}_bodies_t"), "into->bodies", 1),
@@ -77,12 +74,8 @@ mod tests {
             ..Item::default()
         };
         let is = |text: &str, is_single| is_default(&item(text), false, is_single, &defaults);
-        let bodies = |list: &str| {
-            is(
-                &format!("pub const BODIES: Bodies = Bodies([\n{list}]);"),
-                false,
-            )
-        };
+        let constant = |list: &str| format!("pub const BODIES: Bodies = Bodies([\n{list}]);");
+        let bodies = |list: &str| is(&constant(list), false);
         assert!(bodies("    0.0,\n    1.5,\n"));
         assert!(!bodies("    0.0,\n    1.6,\n") && !bodies("    0.0,\n"));
         let armature = |real: &str, number: &str, is_single| {
@@ -104,19 +97,11 @@ mod tests {
         header.symbols.macros = "ARM".to_owned();
         assert!(is_default(&header, true, false, &defaults));
         let armature_defaults = [("armature", vec![exact("12"), exact("0")])];
-        for (number, is_it) in [
-            ("12.0", true),
-            ("012", false),
-            ("12", false),
-            ("13.0", false),
-        ] {
+        for number in ["12.0", "012", "12", "13.0"] {
             let mut other = header.clone();
             other.text = header.text.replace("0.1", number);
-            assert_eq!(
-                is_default(&other, true, false, &armature_defaults),
-                is_it,
-                "{number}"
-            );
+            let is_it = is_default(&other, true, false, &armature_defaults);
+            assert_eq!(is_it, number == "12.0", "{number}");
         }
     }
 }

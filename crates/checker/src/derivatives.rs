@@ -36,7 +36,6 @@ struct OperandBound {
     error: f64,
 }
 
-/// Half an ulp of a number of at most this size.
 fn half_ulp(unit: f64, size: f64) -> f64 {
     match size.is_normal() {
         true => unit * f64::from_bits(size.to_bits() & !((1 << 52) - 1)),
@@ -50,7 +49,6 @@ fn is_power(operand: &Operand<f64>) -> bool {
 }
 
 impl Derivatives<'_> {
-    /// Bounds what rounding costs each of these results.
     pub(crate) fn bounds(&self, results: &[usize]) -> Result<Vec<f64>, Fault> {
         let mut known: Vec<OperandBound> = Vec::new();
         let mut rounded = Vec::new();

@@ -3,12 +3,14 @@
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::robot;
+use crate::interval::Interval;
 use crate::load::load_of_point;
 pub use crate::maximum::corners;
 use crate::maximum::{self, Decision};
 use crate::polynomial::Polynomial;
 use crate::program::{LOAD, Program, argument};
 use crate::ring::Ring;
+use crate::rounding::Ranges;
 use crate::work::Work;
 use crate::written::PolynomialProgram;
 
@@ -18,7 +20,6 @@ const PURSE: u64 = 50_000_000;
 /// The states of a robot, in a scene or by itself, that a function takes.
 pub struct Domain {
     ring: Ring,
-    /// The ranges of the load's numbers.
     load: Vec<[f64; 2]>,
     /// These states without a payload, where there may be one.
     bare: Option<Box<Domain>>,
@@ -40,29 +41,19 @@ impl Domain {
         let file = robot::read(source).map_err(of_robot)?;
         let mut setting = file.setting(scene).map_err(of_robot)?;
         setting.loading = load.iter().filter_map(|_| argument("payload")).collect();
-        let places = arguments
-            .iter()
-            .map(|name| argument(name))
-            .collect::<Option<Vec<usize>>>()
-            .ok_or_else(|| Fault::Claim("an argument that is not known".into()))?;
-        let (mut ranges, _) = setting.loaded_box(&places, false, load)?;
-        let ring = Ring::new(&setting, &ranges, &Work::default())?;
-        let mut domain = Domain {
-            ring,
-            load: Vec::new(),
-            bare: None,
+        let places: Option<Vec<usize>> = arguments.iter().map(|name| argument(name)).collect();
+        let unknown = || Fault::Claim("an argument that is not known".into());
+        let (mut ranges, _) = setting.loaded_box(&places.ok_or_else(unknown)?, false, load)?;
+        let without_load = |ranges: &Ranges| -> Result<Domain, Fault> {
+            let ring = Ring::new(&setting, ranges, &Work::default())?;
+            let (load, bare) = (Vec::new(), None);
+            Ok(Domain { ring, load, bare })
         };
+        let mut domain = without_load(&ranges)?;
         if let (Some(load), Some(place)) = (load, argument(LOAD)) {
-            let none = load_of_point(load, 0.0, [0.0; 3])?
-                .iter()
-                .map(|interval| [interval.low, interval.high])
-                .collect();
-            domain.load = std::mem::replace(&mut ranges[place], none);
-            domain.bare = Some(Box::new(Domain {
-                ring: Ring::new(&setting, &ranges, &Work::default())?,
-                load: Vec::new(),
-                bare: None,
-            }));
+            let none = load_of_point(load, 0.0, [0.0; 3])?.into_iter();
+            domain.load = std::mem::replace(&mut ranges[place], none.map(Interval::ends).collect());
+            domain.bare = Some(Box::new(without_load(&ranges)?));
         }
         Ok(domain)
     }

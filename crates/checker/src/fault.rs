@@ -19,12 +19,6 @@ pub enum Fault {
     Work,
 }
 
-impl Fault {
-    pub(crate) fn text(line: usize, expected: impl Into<String>) -> Fault {
-        Fault::Text(line, expected.into())
-    }
-}
-
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -42,15 +42,11 @@ pub(crate) fn check(
     work.spend(program.steps.len(), 6 * RESIDUE)?;
     let lost = || Fault::Claim("the program reads what is not there".into());
     let [first, second, point] = points;
-    let vain = [first, second].map(|point| vain(program, loops, point, setting, load));
-    let [Some([one, twins]), Some([other, others])] = vain else {
-        return Err(lost());
-    };
+    let vain = |point| vain(program, loops, point, setting, load).ok_or_else(lost);
+    let ([one, twins], [other, others]) = (vain(first)?, vain(second)?);
     if let Some(step) = twins.intersection(&others).min() {
-        return Err(refused(
-            *step,
-            "changes no result with its like in other lanes",
-        ));
+        let why = "changes no result with its like in other lanes";
+        return Err(refused(*step, why));
     }
     // A zero derivative is no proof: it is zero at an extremum, too.
     let mut idle: Vec<usize> = one.intersection(&other).copied().collect();
@@ -66,14 +62,10 @@ pub(crate) fn check(
             return Err(refused(step, "changes no result"));
         }
     }
-    let states = [(); 2].map(|()| state(point, setting, load));
-    let [Some(one), Some(other)] = states else {
-        return Err(lost());
-    };
-    let values = [&one, &other].map(|state| program.step_residues(point, state));
-    let [Some(first_values), Some(second_values)] = values else {
-        return Err(lost());
-    };
+    let drawn = || state(point, setting, load).ok_or_else(lost);
+    let (one, other) = (drawn()?, drawn()?);
+    let values = |state: &State| program.step_residues(point, state).ok_or_else(lost);
+    let (first_values, second_values) = (values(&one)?, values(&other)?);
     let mut known = HashMap::new();
     // Lanes of one row may have it.
     let mut is_new = |both: [Number; 2], row: usize| {
@@ -90,13 +82,10 @@ pub(crate) fn check(
             .map_or(step, |[first, rows, _]| first + (step - first) % rows)
     };
     let is_input = |operand: &Operand<Exact>| Some(!matches!(operand, Operand::Constant(_)));
-    let reads_state = program
-        .values(is_input, |_, a, b| a || b)
-        .ok_or_else(lost)?;
+    let reads = program.values(is_input, |_, a, b| a || b);
+    let reads_state = reads.ok_or_else(lost)?;
     let operands = program.steps.iter().flat_map(|step| &step.1);
-    for operand in
-        operands.filter(|operand| !matches!(operand, Operand::Step(_) | Operand::Constant(_)))
-    {
+    for operand in operands.filter(|operand| !matches!(operand, Operand::Constant(_))) {
         let both = [&one, &other].map(|state| leaf(operand, point, state));
         if let [Some(a), Some(b)] = both {
             is_new([a, b], usize::MAX);
@@ -172,11 +161,8 @@ fn vain(
             }
         }
     }
-    let is_vain = |(step, slope): (usize, &Number)| {
-        let is_none = slope.value(point.prime) == Some(0);
-        is_none.then_some(step)
-    };
-    let alone = slopes.iter().enumerate().filter_map(is_vain).collect();
+    let is_vain = |step: &usize| slopes[*step].value(point.prime) == Some(0);
+    let alone = (0..slopes.len()).filter(is_vain).collect();
     let mut twins = HashSet::new();
     let value = |number: Number| number.value(point.prime);
     for &[first, rows, lanes] in loops {

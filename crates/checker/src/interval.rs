@@ -23,7 +23,7 @@ impl Interval {
     };
 
     /// Returns the numbers between two ends; everything if these are no numbers in order.
-    pub fn new(low: f64, high: f64) -> Interval {
+    pub const fn new(low: f64, high: f64) -> Interval {
         match low <= high {
             true => Interval { low, high },
             false => Interval::NOTHING_KNOWN,
@@ -38,6 +38,10 @@ impl Interval {
     /// Returns all numbers at most so far from a number.
     pub fn around(value: f64, radius: f64) -> Interval {
         Interval::new((value - radius).next_down(), (value + radius).next_up())
+    }
+
+    pub(crate) fn ends(self) -> [f64; 2] {
+        [self.low, self.high]
     }
 
     /// Returns the largest magnitude in it.
@@ -77,10 +81,7 @@ pub(crate) fn up(x: f64) -> f64 {
 }
 
 /// Zero, exactly: what it is added to, and finite numbers times it, need no rounding.
-const ZERO: Interval = Interval {
-    low: 0.0,
-    high: 0.0,
-};
+const ZERO: Interval = Interval::new(0.0, 0.0);
 
 impl Add for Interval {
     type Output = Interval;

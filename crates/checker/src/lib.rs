@@ -18,58 +18,35 @@
 #![forbid(unsafe_code)]
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // So that NaN counts as too large.
 
-#[cfg(feature = "certify")]
 mod aside;
-#[cfg(feature = "certify")]
 mod c99;
-#[cfg(feature = "certify")]
 pub mod certify;
-#[cfg(feature = "claim")]
 pub mod claim;
-#[cfg(feature = "certify")]
 mod compare;
-#[cfg(feature = "certify")]
 mod cost;
-#[cfg(feature = "certify")]
 mod defaults;
-#[cfg(feature = "certify")]
 mod derivatives;
-#[cfg(feature = "certify")]
 pub mod domain;
 mod fault;
-#[cfg(feature = "certify")]
 pub mod file;
-#[cfg(feature = "certify")]
 mod hidden;
-#[cfg(feature = "certify")]
 pub mod identity;
-#[cfg(feature = "certify")]
 pub mod interval;
 mod load;
 mod maximum;
 pub mod payload;
 pub mod places;
-#[cfg(feature = "certify")]
 pub mod polynomial;
 pub mod program;
 pub mod read;
-#[cfg(feature = "certify")]
 mod ring;
-#[cfg(feature = "certify")]
 mod rounding;
-#[cfg(feature = "certify")]
 mod sample;
-#[cfg(feature = "certify")]
 mod sines;
-#[cfg(feature = "certify")]
 mod states;
-#[cfg(feature = "certify")]
 mod together;
-#[cfg(feature = "certify")]
 mod tolerance;
-#[cfg(feature = "certify")]
 pub mod work;
-#[cfg(feature = "certify")]
 mod written;
 
 pub use fault::Fault;

@@ -29,13 +29,9 @@ impl Setting<'_> {
             ranges[place] = outward.flat_map(BodyRange::ranges).collect();
         }
         let text = literals(load);
-        let values = Rounding::new(&text, is_single, &ranges)
-            .bounds(&ranges, None)
-            .results;
-        let entries = values
-            .iter()
-            .map(|value| [value.exact.low, value.exact.high]);
-        ranges[place] = entries.collect();
+        let rounding = Rounding::new(&text, is_single, &ranges);
+        let values = rounding.bounds(&ranges, None).results;
+        ranges[place] = values.iter().map(|value| value.exact.ends()).collect();
         Ok((ranges, values))
     }
 }

@@ -42,8 +42,7 @@ impl BodyRange {
         }
     }
 
-    /// Returns the ranges of the ten numbers: mass, centre of mass, and inertia about that as xx,
-    /// yy, zz, xy, yz, xz.
+    /// Returns the ranges of the ten numbers, in the order of [`BodyRange::draw`].
     pub(crate) fn ranges(self) -> Vec<[f64; 2]> {
         let BodyRange { mass, radius } = self;
         let most = up(up(mass[1] * radius) * radius);
@@ -88,10 +87,7 @@ impl BodyRange {
 
 impl fmt::Display for BodyRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let BodyRange {
-            mass: [low, high],
-            radius,
-        } = self;
+        let ([low, high], radius) = (self.mass, self.radius);
         let place = "of the origin of its frame";
         write!(f, "{low} to {high} kg, all of it within {radius} m {place}")
     }
@@ -133,14 +129,11 @@ pub fn rust(is_single: bool, kind: &str) -> String {
 
 /// Returns the methods of so many bodies in Rust; where some numbers stay zero, they are tested.
 pub fn rust_bodies(count: usize, zeros: &[bool]) -> String {
-    let (list, test) = match zeros {
-        [] => (String::new(), ""),
-        zeros => (
-            format!(
-                "const ZEROS: [u8; {}] = [{}];\n",
-                zeros.len(),
-                digits(zeros)
-            ),
+    let (length, digits) = (zeros.len(), digits(zeros));
+    let (list, test) = match length {
+        0 => (String::new(), ""),
+        _ => (
+            format!("const ZEROS: [u8; {length}] = [{digits}];\n"),
             "assert!(!((ZEROS[10 * place + number] == 1) && !(body.0[number] == 0.0)));\n",
         ),
     };
@@ -163,17 +156,14 @@ pub fn c(is_single: bool, function: &str, [prefix, macros]: [&str; 2], kind: &st
         true => ("float", "0.5005", "F"),
         false => ("double", "0.5000005", ""),
     };
+    let (mut lines, mut kept) = (String::new(), String::new());
+    for (place, name) in NUMBERS.iter().enumerate() {
+        lines += &format!("const {real} {name} = numbers[{place}];\n");
+        kept += &format!("{kind}->{kind}[{place}] = {name};\n");
+    }
     let tested = TESTED.replace("TEST", &format!("({TEST})"));
-    let lines_of = |line: fn((usize, &&str)) -> String| -> String {
-        NUMBERS.iter().enumerate().map(line).collect()
-    };
-    let lines = lines_of(|(place, name)| format!("let {name} = numbers[{place}];\n")) + &tested;
-    let lines = lines
-        .replace("let", &format!("const {real}"))
-        .replace("HALF", half)
-        .replace('~', suffix);
-    let kept =
-        lines_of(|(place, name)| format!("KIND->KIND[{place}] = {name};\n")).replace("KIND", kind);
+    let constants = tested.replace("let", &format!("const {real}"));
+    lines += &constants.replace("HALF", half).replace('~', suffix);
     format!(
         "typedef struct {{\n{real} {kind}[10];\n}} {prefix}_{kind}_t;\n\
          {function} int {prefix}_{kind}(const {real} numbers[{macros}_RESTRICT 10], \
@@ -190,14 +180,12 @@ pub fn c_bodies(
     [prefix, macros]: [&str; 2],
     (count, zeros): (usize, &[bool]),
 ) -> String {
-    let (real, numbers) = (if is_single { "float" } else { "double" }, 10 * count);
+    let real = if is_single { "float" } else { "double" };
+    let (numbers, digits) = (10 * count, digits(zeros));
     let (list, test) = match zeros {
         [] => (String::new(), ""),
-        zeros => (
-            format!(
-                "static const unsigned char zeros[{numbers}] = {{{}}};\n",
-                digits(zeros)
-            ),
+        _ => (
+            format!("static const unsigned char zeros[{numbers}] = {{{digits}}};\n"),
             "while (number < 10) {\n\
              if ((zeros[10 * place + number] == 1) && !(body->body[number] == 0)) {\nreturn 0;\n}\n\
              number += 1;\n}\nnumber = 0;\n",

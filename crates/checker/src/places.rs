@@ -35,16 +35,18 @@ impl Places {
     pub fn new(names: &[Option<&str>], limbs: Option<Vec<usize>>) -> Places {
         let floats = limbs.is_some();
         let mut used_names: BTreeSet<String> = TAKEN.split(' ').map(str::to_owned).collect();
-        let mut constants = Vec::new();
+        let [mut plain_names, mut constants] = [Vec::new(), Vec::new()];
+        let same = |c: char| if is_plain_sign(c) { c } else { '_' };
         for (number, name) in (1..).zip(names) {
+            plain_names.push(match name {
+                Some(name) => name.chars().map(same).collect(),
+                None => format!("joint {number}"),
+            });
             let mut constant = constant(name.unwrap_or(""), number);
             if used_names.contains(&constant) || constant.ends_with(PARAMETERS) {
                 constant = format!("JOINT_{constant}");
             }
-            while [&constant, &format!("Q_{constant}")]
-                .into_iter()
-                .any(|candidate| used_names.contains(candidate))
-            {
+            while used_names.contains(&constant) || used_names.contains(&format!("Q_{constant}")) {
                 constant += &format!("_{number}");
             }
             used_names.extend([format!("Q_{constant}"), constant.clone()]);
@@ -52,25 +54,14 @@ impl Places {
         }
         let base = if floats { BASE } else { 0 };
         let velocities = constants.iter().cloned().zip(base..);
-        let positions = constants
-            .iter()
-            .map(|constant| format!("Q_{constant}"))
-            .zip(0..);
+        let position = |constant: &String| format!("Q_{constant}");
+        let positions = constants.iter().map(position).zip(0..);
+        let root = floats.then(|| ("BASE".to_owned(), 0));
         Places {
-            names: (1..)
-                .zip(names)
-                .map(|(number, name)| plain(*name, number))
-                .collect(),
-            velocities: floats
-                .then(|| ("BASE".into(), 0))
-                .into_iter()
-                .chain(velocities)
-                .collect(),
+            names: plain_names,
+            velocities: root.into_iter().chain(velocities).collect(),
             positions: positions.filter(|_| floats).collect(),
-            limbs: limbs
-                .into_iter()
-                .flat_map(|starts| [starts, vec![names.len()]].concat())
-                .collect(),
+            limbs: limbs.map_or_else(Vec::new, |starts| [starts, vec![names.len()]].concat()),
             counts: [names.len(), base + names.len()],
         }
     }
@@ -91,55 +82,29 @@ impl Places {
     /// Returns the lines of a header: an enum, and the names and the limbs as macros that begin arrays.
     pub fn header(&self, name: &str) -> String {
         let counts = ["N", "NV"].map(str::to_owned).into_iter().zip(self.counts);
-        let places = counts
-            .chain(self.velocities.iter().cloned())
-            .chain(self.positions.iter().cloned());
-        let lines = places
-            .map(|(constant, place)| format!("    {name}_{constant} = {place}"))
-            .collect::<Vec<String>>()
-            .join(",\n");
-        let names = self
-            .names
-            .iter()
-            .map(|name| format!("\"{name}\""))
-            .collect::<Vec<String>>()
-            .join(", ");
-        let limbs = self
-            .limbs
-            .iter()
-            .map(usize::to_string)
-            .collect::<Vec<String>>()
-            .join(", ");
-        let limbs = match limbs.is_empty() {
-            true => limbs,
-            false => format!("\n#define {name}_LIMBS {{{limbs}}}"),
-        };
-        format!("enum {{\n{lines}\n}};\n#define {name}_JOINT_NAMES {{{names}}}{limbs}")
+        let places = [&self.velocities, &self.positions].into_iter().flatten();
+        let line = |(constant, place)| format!("    {name}_{constant} = {place}");
+        let lines: Vec<String> = counts.chain(places.cloned()).map(line).collect();
+        let quoted = |name: &String| format!("\"{name}\"");
+        let names: Vec<String> = self.names.iter().map(quoted).collect();
+        let mut macros = format!("#define {name}_JOINT_NAMES {{{}}}", names.join(", "));
+        if !self.limbs.is_empty() {
+            let limbs: Vec<String> = self.limbs.iter().map(usize::to_string).collect();
+            macros += &format!("\n#define {name}_LIMBS {{{}}}", limbs.join(", "));
+        }
+        format!("enum {{\n{}\n}};\n{macros}", lines.join(",\n"))
     }
 }
 
 /// Returns a name in capital letters, digits and `_`, which a letter begins.
 fn constant(name: &str, number: usize) -> String {
-    let letter = |c: char| {
-        if is_letter(c) {
-            c.to_ascii_uppercase()
-        } else {
-            '_'
-        }
-    };
-    let capitals: String = name.chars().map(letter).take(LONGEST).collect();
+    let letter = |c: char| if is_letter(c) { c } else { '_' };
+    let word: String = name.chars().map(letter).take(LONGEST).collect();
+    let capitals = word.to_ascii_uppercase();
     match capitals.trim_matches('_') {
         "" => format!("JOINT_{number}"),
         short if short.starts_with(|c: char| c.is_ascii_digit()) => format!("JOINT_{short}"),
         short => short.to_owned(),
-    }
-}
-
-fn plain(name: Option<&str>, number: usize) -> String {
-    let same = |c: char| if is_plain_sign(c) { c } else { '_' };
-    match name {
-        Some(name) => name.chars().map(same).collect(),
-        None => format!("joint {number}"),
     }
 }
 
@@ -149,10 +114,8 @@ mod tests {
 
     #[test]
     fn names_are_told_apart() {
-        let names = [
-            "FL hip", "FL_hip", "N", "", "2nd", "q_a", "a", "\"é\"", "base",
-        ]
-        .map(Some);
+        let names = "FL hip|FL_hip|N||2nd|q_a|a|\"é\"|base".split('|');
+        let names: Vec<Option<&str>> = names.map(Some).collect();
         let places = Places::new(&names, Some(vec![0, 4]));
         let line = |(name, place): &(String, usize)| format!("{name} {place}");
         let velocities: Vec<String> = places.velocities.iter().map(line).collect();
@@ -164,11 +127,8 @@ mod tests {
         let positions: Vec<String> = places.positions.iter().map(line).collect();
         assert_eq!(positions[5..7], ["Q_Q_A 5", "Q_A_7 6"]);
         assert!(places.array().contains("    \"_é_\",\n"));
-        assert!(
-            places
-                .header("ARM")
-                .ends_with("\"q_a\", \"a\", \"_é_\", \"base\"}\n#define ARM_LIMBS {0, 4, 9}")
-        );
+        let end = "\"q_a\", \"a\", \"_é_\", \"base\"}\n#define ARM_LIMBS {0, 4, 9}";
+        assert!(places.header("ARM").ends_with(end));
         let limbs = "pub const LIMBS: [usize; 3] = [0, 4, 9];";
         assert_eq!(places.limbs().as_deref(), Some(limbs));
         let fixed = Places::new(&[None, Some("elbow")], None);

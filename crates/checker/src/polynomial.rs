@@ -126,7 +126,6 @@ impl Powers {
         std::array::from_fn(|k| self.0[k] & mask[k])
     }
 
-    /// Returns all of it but sines and cosines.
     pub(crate) fn without_angles(self) -> Powers {
         Powers(std::array::from_fn(|k| self.0[k] & !ANGLES[k]))
     }
@@ -159,10 +158,8 @@ impl Polynomial {
     }
 
     fn term(key: Powers, factor: f64, rest: f64) -> Polynomial {
-        let terms = Some((key, factor))
-            .filter(|_| factor != 0.0)
-            .into_iter()
-            .collect();
+        let term = Some((key, factor)).filter(|_| factor != 0.0);
+        let terms = term.into_iter().collect();
         Polynomial { terms, rest }
     }
 

@@ -74,9 +74,8 @@ impl<C> Program<C> {
     ) -> Option<Vec<V>> {
         let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
         for (operation, operands) in &self.steps {
-            let [a, b] = operands
-                .each_ref()
-                .map(|operand| read(operand, &values, &leaf));
+            let value = |operand: &Operand<C>| read(operand, &values, &leaf);
+            let [a, b] = operands.each_ref().map(value);
             values.push(apply(*operation, a?, b?));
         }
         Some(values)

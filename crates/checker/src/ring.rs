@@ -25,12 +25,12 @@ const LINEAR: [(Variable, &str); 3] = [
     (Variable::Load, "load"),
 ];
 
+#[derive(Default)]
 pub struct Ring {
     /// Sine, cosine and position of each joint, or what there is of them.
     positions: Vec<[Option<Polynomial>; 3]>,
     /// q̇, q̈ and the load.
     linear: [Vec<Polynomial>; 3],
-    /// Gravity in the axes of a base that floats.
     gravity: Vec<Polynomial>,
     /// The ranges of the positions, and the sign with which the angle before is taken off.
     places: Vec<([f64; 2], f64)>,
@@ -78,24 +78,13 @@ impl Ring {
         let of_robot = |why| Fault::Robot("joint".into(), why);
         let count = setting.joints();
         if setting.sizes().coordinates > MAX_JOINTS {
-            let why = match setting.base() {
-                0 => format!("under a tolerance at most {MAX_JOINTS} joints are checked"),
-                base => format!(
-                    "under a tolerance at most {} joints are checked where the base floats",
-                    MAX_JOINTS - base
-                ),
-            };
+            let most = MAX_JOINTS - setting.base();
+            let end = ["", " where the base floats"][usize::from(most < MAX_JOINTS)];
+            let why = format!("under a tolerance at most {most} joints are checked{end}");
             return Err(of_robot(why));
         }
         let arm = Arm::read(setting, &Point::new(&["axes"])).map_err(of_robot)?;
-        let mut ring = Ring {
-            positions: Vec::new(),
-            linear: Default::default(),
-            gravity: Vec::new(),
-            places: Vec::new(),
-            angles: Vec::new(),
-            units: Default::default(),
-        };
+        let mut ring = Ring::default();
         let moves = |joint: usize| setting.turns_by(joint) && !setting.is_locked(joint);
         for (joint, &position) in ranges[0].iter().enumerate() {
             let is_whole = position[1] - position[0] >= WHOLE_TURN;
@@ -108,9 +97,7 @@ impl Ring {
             } else if !setting.turns_by(joint) {
                 [None, None, Some(between(position, joint))]
             } else {
-                let before = joint
-                    .checked_sub(1)
-                    .filter(|&previous| is_whole && moves(previous));
+                let before = joint.checked_sub(1).filter(|k| is_whole && moves(*k));
                 sign = before.and_then(|before| arm.parallel([before, joint]));
                 let [sin, cos] = pair(joint, sign, work)?;
                 [Some(sin), Some(cos), None]
@@ -155,20 +142,19 @@ impl Ring {
     /// Returns the positions at the variables' angles, rad and m: where the angle before is taken off,
     /// as it is there.
     pub fn positions(&self, angles: &[f64]) -> Vec<f64> {
-        let before = [0.0].into_iter().chain(angles.iter().copied());
         let places = self.places.iter().zip(&self.positions);
-        let joints = places.zip(angles.iter().zip(before));
-        joints
-            .map(
-                |((([low, high], sign), position), (angle, before))| match position {
-                    [.., Some(_)] => {
-                        0.5 * low + 0.5 * high + (0.5 * high - 0.5 * low) * sin_cos(*angle).1
-                    }
-                    [None, ..] => *low,
-                    _ => angle - sign * before,
-                },
-            )
-            .collect()
+        let (mut positions, mut before) = (Vec::new(), 0.0);
+        for ((([low, high], sign), position), angle) in places.zip(angles) {
+            positions.push(match position {
+                [.., Some(_)] => {
+                    0.5 * low + 0.5 * high + (0.5 * high - 0.5 * low) * sin_cos(*angle).1
+                }
+                [None, ..] => *low,
+                _ => angle - sign * before,
+            });
+            before = *angle;
+        }
+        positions
     }
 
     /// Returns gravity of full length at the variables' angles, m/s²; nothing on a fixed base.
@@ -190,10 +176,8 @@ impl Ring {
 
     /// Returns how many joints and coordinates variables are of.
     pub fn width(&self) -> usize {
-        self.units[..2]
-            .iter()
-            .map(Vec::len)
-            .fold(self.angles.len(), usize::max)
+        let [rates, accelerations, _] = self.units.each_ref().map(Vec::len);
+        self.angles.len().max(rates).max(accelerations)
     }
 
     /// None for other operands, and for a joint that is locked.

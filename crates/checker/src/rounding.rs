@@ -59,11 +59,8 @@ impl<'f> Rounding<'f> {
                 continue;
             };
             let angle = entry(ranges, 0, pair.joint).unwrap_or(Interval::NOTHING_KNOWN);
-            let needed = [true, false]
-                .into_iter()
-                .zip(pair.needs)
-                .filter(|need| need.1);
-            for (result, (is_sine, _)) in needed.enumerate() {
+            let both = [true, false].into_iter().zip(pair.needs);
+            for (result, (is_sine, _)) in both.filter(|need| need.1).enumerate() {
                 let place = 2 * result + usize::from(is_sine);
                 let is_same = |entry: &&(&Program<f64>, Interval, usize, f64)| {
                     (entry.1, entry.2) == (angle, place) && entry.0 == program
@@ -84,7 +81,6 @@ impl<'f> Rounding<'f> {
         }
     }
 
-    /// Returns how far an entry of the load is off; zero for other operands.
     pub(crate) fn load_error<C>(&self, operand: &Operand<C>) -> f64 {
         match operand {
             Operand::Entry(place, index) if argument(LOAD) == Some(*place) => {
@@ -113,9 +109,8 @@ impl<'f> Rounding<'f> {
             values: Vec::with_capacity(steps.len()),
         };
         for (index, (operation, operands)) in steps.iter().enumerate() {
-            let [a, b] = operands
-                .each_ref()
-                .map(|operand| self.operand(operand, &inputs));
+            let value = |operand: &Operand<f64>| self.operand(operand, &inputs);
+            let [a, b] = operands.each_ref().map(value);
             let (mut exact, error) = match operation {
                 '+' => (a.exact + b.exact, a.error + b.error),
                 '-' => (a.exact + -b.exact, a.error + b.error),

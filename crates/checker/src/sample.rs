@@ -24,7 +24,6 @@ pub struct Near {
 /// The states that are run at once, in vectors: a third of the time.
 pub const LANES: usize = 4;
 
-/// Values at several states.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes {
     value: [f64; LANES],
@@ -41,7 +40,6 @@ impl Lanes {
         }
     }
 
-    /// Returns those of one state.
     pub fn at(&self, lane: usize) -> Near {
         Near {
             value: self.value[lane],
@@ -92,24 +90,17 @@ impl<'f> Sampler<'f> {
         let code: Vec<_> = steps
             .map(|(operation, both)| (*operation, both.each_ref().map(&mut place)))
             .collect();
-        let outputs: Vec<_> = program
-            .outputs
-            .iter()
-            .map(|output| (output.0, place(&output.1)))
-            .collect();
+        let output = |(negative, operand): &(bool, Operand<f64>)| (*negative, place(operand));
+        let outputs: Vec<_> = program.outputs.iter().map(output).collect();
         let first = leaves.len();
         let index = |slot: Result<usize, usize>| slot.unwrap_or_else(|step| first + step);
         let pair = |joint| [true, false].map(|is_sine| rounding.polynomial(joint, is_sine));
-        let code = code
-            .into_iter()
-            .map(|(operation, both)| (operation, both.map(index)));
+        let step = |(operation, both): (char, [_; 2])| (operation, both.map(index));
+        let result = |(negative, slot)| (negative, index(slot));
         Sampler {
-            code: code.collect(),
+            code: code.into_iter().map(step).collect(),
             leaves,
-            outputs: outputs
-                .into_iter()
-                .map(|output| (output.0, index(output.1)))
-                .collect(),
+            outputs: outputs.into_iter().map(result).collect(),
             speeds: &function.speeds,
             polynomials: (0..joints).map(pair).collect(),
             scalar: rounding.scalar,
@@ -121,7 +112,6 @@ impl<'f> Sampler<'f> {
         30 * self.leaves.len() as u64 + 8 * self.code.len() as u64 + 100
     }
 
-    /// Runs the function at states, given the loads there.
     pub fn run(&self, states: [&FloatState; LANES], load: &[Lanes]) -> Vec<Lanes> {
         let leaf = |operand| Lanes::new(from_fn(|k| self.leaf(operand, states[k], load, k)));
         let mut values = Vec::with_capacity(self.leaves.len() + self.code.len());
@@ -140,9 +130,7 @@ impl<'f> Sampler<'f> {
 
     /// Combines operands by value, off and inherited error, and rounds.
     fn rounded(&self, a: Lanes, b: Lanes, combine: impl Fn(Near, Near) -> [f64; 3]) -> Lanes {
-        let Scalar {
-            unit, least, most, ..
-        } = self.scalar;
+        let (unit, least, most) = (self.scalar.unit, self.scalar.least, self.scalar.most);
         let mut lanes = a;
         for k in 0..LANES {
             let [value, off, inherited] = combine(a.at(k), b.at(k));
@@ -166,7 +154,6 @@ impl<'f> Sampler<'f> {
         })
     }
 
-    /// Returns the largest magnitude of each step.
     pub fn magnitudes<'v>(&self, values: &'v [Lanes]) -> impl Iterator<Item = f64> + 'v {
         let steps = values[self.leaves.len()..].iter();
         steps.map(|step| step.value.iter().fold(0.0, |most, x| x.abs().max(most)))
@@ -195,10 +182,8 @@ impl<'f> Sampler<'f> {
             Operand::Entry(place, index) => entry(*place, *index).map(exactly),
             Operand::Sine(joint, is_sine) => entry(0, *joint).map(|angle| {
                 let (sin, cos) = sin_cos(angle);
-                let polynomial = self
-                    .polynomials
-                    .get(*joint)
-                    .and_then(|errors| errors[usize::from(!is_sine)]);
+                let errors = self.polynomials.get(*joint);
+                let polynomial = errors.and_then(|errors| errors[usize::from(!is_sine)]);
                 // The library's is within an ulp of at most one.
                 let error = polynomial.unwrap_or(2.0 * unit);
                 near(if *is_sine { sin } else { cos }, SINE_ERROR, error)

@@ -123,9 +123,7 @@ impl Reduction {
             steps: behind.iter().map(step).collect::<Option<_>>()?,
             outputs: program.outputs.iter().map(output).collect::<Option<_>>()?,
         };
-        let Scalar {
-            unit, least, far, ..
-        } = scalar;
+        let (unit, least, far) = (scalar.unit, scalar.least, scalar.far);
         // 2^(p − 1) times 1.5, of p bits.
         (*steps == expected && magic == 0.75 / unit).then_some(())?;
         let scaled = far * inverse.abs();

@@ -40,10 +40,8 @@ impl States<'_> {
             let of_bodies = self.bodies.iter().find(|(argument, _)| *argument == place);
             state[place] = match of_bodies {
                 Some((_, bodies)) => {
-                    let parameters = bodies
-                        .iter()
-                        .map(|body| body.draw(&mut || self.draws.share()));
-                    parameters.collect::<Vec<_>>().concat()
+                    let draw = |body: &BodyRange| body.draw(&mut || self.draws.share());
+                    bodies.iter().flat_map(draw).collect()
                 }
                 None => (list.iter().enumerate().map(|(index, range)| match count {
                     0 => 0f64.clamp(range[0], range[1]),
@@ -123,9 +121,8 @@ impl States<'_> {
                             *entry = (*entry + way * (high - low)).clamp(low, high);
                             self.rounded(next)
                         });
-                        for (height, next) in
-                            heights(neighbours.each_ref())?.into_iter().zip(neighbours)
-                        {
+                        let reached = heights(neighbours.each_ref())?;
+                        for (height, next) in reached.into_iter().zip(neighbours) {
                             if height > highest {
                                 (state, highest, has_moved) = (next, height, true);
                             }

@@ -3,8 +3,8 @@
 //! `dalembert-sines`, where each result is proved to be within an ulp; what is further away than
 //! `MOST` is the C library's.
 
-use crate::claim::whole;
 use crate::file::between;
+use crate::read::whole;
 
 /// The function of several; `@` is what their names begin with. Literals of f32 end with F for
 /// `~`, and functions of the library with f for `^`.

@@ -116,10 +116,8 @@ impl VariantSubject<'_> {
         ensure(fields.len() == count, "results that are not the function's")?;
         let mut loading = self.setting.loading.iter();
         let is_of_payload = loading.all(|place| argument("payload") == Some(*place));
-        ensure(
-            is_of_payload,
-            "a tolerance where bodies or drives are arguments",
-        )?;
+        let why = "a tolerance where bodies or drives are arguments";
+        ensure(is_of_payload, why)?;
         let places = &self.function.arguments;
         let (ranges, load) = (self.setting).loaded_box(places, self.is_single, self.load)?;
         let ranges = &ranges;
@@ -227,9 +225,8 @@ impl VariantSubject<'_> {
         let mut lists = [joints, &self.setting.rows].into_iter();
         let held = lists.find(|list| !list.is_empty());
         let is_held = |joint: &usize| held.is_none_or(|list| list.contains(joint));
-        let tolerances = (0..self.tolerance.len())
-            .filter(is_held)
-            .map(|joint| self.tolerance[joint]);
+        let held_joints = (0..self.tolerance.len()).filter(is_held);
+        let tolerances = held_joints.map(|joint| self.tolerance[joint]);
         tolerances.fold(f64::INFINITY, f64::min)
     }
 
@@ -333,15 +330,10 @@ impl Setting<'_> {
                 continue;
             }
             let name = ARGUMENTS[place].0;
-            let joint_ranges = self
-                .ranges(name, f64::INFINITY)
-                .map_err(of_robot)?
-                .unwrap_or_default();
-            if !joint_ranges
-                .iter()
-                .flatten()
-                .all(|end| end.abs() < MOST_RATE)
-            {
+            let known = self.ranges(name, f64::INFINITY).map_err(of_robot)?;
+            let joint_ranges = known.unwrap_or_default();
+            let mut ends = joint_ranges.iter().flatten();
+            if !ends.all(|end| end.abs() < MOST_RATE) {
                 let why = format!("a tolerance needs the range of `{name}` of every joint");
                 return Err(of_robot(why));
             }

@@ -9,14 +9,11 @@ const MOST: u64 = 8_000_000_000;
 
 /// The work that is left.
 #[derive(Debug)]
-pub struct Work {
-    left: Cell<u64>,
-}
+pub struct Work(Cell<u64>);
 
 impl Default for Work {
     fn default() -> Work {
-        let left = Cell::new(MOST);
-        Work { left }
+        Work(Cell::new(MOST))
     }
 }
 
@@ -27,13 +24,13 @@ impl Work {
     /// No more is left.
     pub fn spend(&self, parts: usize, nanoseconds: u64) -> Result<(), Fault> {
         let work = (parts as u64).saturating_mul(nanoseconds);
-        let left = self.left.get().checked_sub(work);
-        self.left.set(left.unwrap_or(0));
+        let left = self.0.get().checked_sub(work);
+        self.0.set(left.unwrap_or(0));
         left.map(|_| ()).ok_or(Fault::Work)
     }
 
     /// Returns the work that is left.
     pub fn left(&self) -> u64 {
-        self.left.get()
+        self.0.get()
     }
 }

@@ -21,10 +21,7 @@ pub(crate) fn evaluate(
             Some(Interval::around(value, radius))
         }
         Operand::Entry(place, index) => arguments.get(*place)?.get(*index).copied(),
-        Operand::Sine(joint, is_sine) => {
-            let angle = arguments.first()?.get(*joint)?;
-            Some(angle.sine(*is_sine))
-        }
+        Operand::Sine(joint, is_sine) => Some(arguments.first()?.get(*joint)?.sine(*is_sine)),
         _ => None,
     };
     let apply = |operation: char, a: Interval, b: Interval| match operation {
@@ -83,9 +80,8 @@ impl<'w> PolynomialProgram<'w> {
                 if let Operand::Step(step) = operand {
                     left[*step] -= 1;
                     if left[*step] == 0 && errors.is_none() {
-                        alive -= polynomials.steps[*step]
-                            .take()
-                            .map_or(0, |polynomial| polynomial.terms.len());
+                        let value = polynomials.steps[*step].take();
+                        alive -= value.map_or(0, |polynomial| polynomial.terms.len());
                     }
                 }
             }
@@ -95,14 +91,12 @@ impl<'w> PolynomialProgram<'w> {
         }
         for (negative, output) in &program.outputs {
             let value = polynomials.value(output)?;
-            polynomials
-                .outputs
-                .push(if *negative { value.negated() } else { value });
+            let result = if *negative { value.negated() } else { value };
+            polynomials.outputs.push(result);
         }
         Ok(polynomials)
     }
 
-    /// Returns the step of an index, if it is needed.
     pub(crate) fn step(&self, index: usize) -> Option<&Polynomial> {
         self.steps[index].as_ref()
     }
@@ -116,7 +110,6 @@ impl<'w> PolynomialProgram<'w> {
         value.ok_or_else(|| Fault::Claim(why.into()))
     }
 
-    /// Returns the value of an operand that is not a step.
     pub(crate) fn leaf(&self, operand: &Operand<Exact>) -> Option<Polynomial> {
         match operand {
             Operand::Constant(constant) => {

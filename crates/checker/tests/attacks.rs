@@ -1,7 +1,7 @@
 //! Variants and claims that were made to be believed, each accepted once by some checker: none is
 //! shown. The text, its claim and the robot of each are files.
 
-use dalembert_checker::certify::{Demand, ResultBound, certify};
+use dalembert_checker::certify::{Demand, FunctionReport, ResultBound, certify};
 
 use crate::support::{file, honest, in_scene};
 
@@ -9,6 +9,15 @@ use crate::support::{file, honest, in_scene};
 fn data(name: &str) -> String {
     let ending = if name.ends_with(".rs") { ".txt" } else { "" };
     file(&format!("crates/checker/tests/data/attacks/{name}{ending}"))
+}
+
+/// Splits each row of a table, but for comments, into so many cells.
+fn rows<const N: usize>(table: &str) -> impl Iterator<Item = [&str; N]> {
+    let rows = table.trim().lines().filter(|row| !row.starts_with('#'));
+    rows.map(|row| {
+        let mut words = row.splitn(N, ' ');
+        std::array::from_fn(|_| words.next().unwrap())
+    })
 }
 
 fn found(
@@ -56,10 +65,7 @@ ra ru s the range of `qd` is empty
 
 #[test]
 fn variants_that_are_not_what_is_claimed() {
-    let rows = ATTACKS.trim().lines().filter(|row| !row.starts_with('#'));
-    for row in rows {
-        let mut words = row.splitn(4, ' ');
-        let [name, robot, scene, words] = std::array::from_fn(|_| words.next().unwrap());
+    for [name, robot, scene, words] in rows(ATTACKS) {
         let why = found(name, [robot, scene], None).unwrap_err();
         assert!(why.contains(words), "{name}: {why}");
     }
@@ -85,10 +91,7 @@ p2.rs planar2r not generated code
 
 #[test]
 fn exact_functions_that_are_not_what_is_claimed() {
-    let rows = EXACT.trim().lines().filter(|row| !row.starts_with('#'));
-    for row in rows {
-        let mut words = row.splitn(3, ' ');
-        let [name, robot, words] = std::array::from_fn(|_| words.next().unwrap());
+    for [name, robot, words] in rows(EXACT) {
         let (base, _) = name.split_once('.').unwrap();
         let claim = data(&format!("{base}.claim.json"));
         let robot = file(&format!("generated/robots/{robot}.toml"));
@@ -96,12 +99,8 @@ fn exact_functions_that_are_not_what_is_claimed() {
             Err(fault) => fault.to_string(),
             Ok(report) => {
                 assert!(!report.passes(false), "{name}");
-                let faults: Vec<String> = report
-                    .lines
-                    .into_iter()
-                    .filter_map(|line| line.result.err())
-                    .map(|fault| fault.to_string())
-                    .collect();
+                let text = |line: FunctionReport| Some(line.result.err()?.to_string());
+                let faults: Vec<String> = report.lines.into_iter().filter_map(text).collect();
                 faults.join("; ")
             }
         };
@@ -163,10 +162,8 @@ fn rows_are_measured_by_the_robot_file() {
         let claim = format!("{}.claim.json", name.split_once('.').unwrap().0);
         let (text, claim) = (data(name), data(&claim));
         let report = certify(&text, &claim, &data("placed.toml"), &Demand::default());
-        assert!(
-            !report.as_ref().is_ok_and(|report| report.passes(false)),
-            "{name}"
-        );
+        let passes = report.as_ref().is_ok_and(|report| report.passes(false));
+        assert!(!passes, "{name}");
         assert!(format!("{report:?}").contains(words), "{name}: {report:?}");
     }
 }
@@ -175,21 +172,11 @@ fn rows_are_measured_by_the_robot_file() {
 #[test]
 fn bodies_that_are_too_many_are_refused_at_once() {
     let claim = data("point_mass.claim.json");
-    let many = claim.replacen(
-        "\"bodies\": [",
-        &format!("\"bodies\": [{}", "1, ".repeat(100_000)),
-        1,
-    );
+    let list = format!("\"bodies\": [{}", "1, ".repeat(100_000));
+    let many = claim.replacen("\"bodies\": [", &list, 1);
     assert_ne!(many, claim);
-    let why = certify(
-        &data("point_mass.h"),
-        &many,
-        &data("placed.toml"),
-        &Demand::default(),
-    );
-    assert!(
-        why.unwrap_err()
-            .to_string()
-            .contains("more bodies than links")
-    );
+    let (text, robot) = (data("point_mass.h"), data("placed.toml"));
+    let report = certify(&text, &many, &robot, &Demand::default());
+    let why = report.unwrap_err().to_string();
+    assert!(why.contains("more bodies than links"), "{why}");
 }

@@ -5,7 +5,7 @@ use dalembert_checker::identity::exact::Exact;
 use dalembert_checker::identity::number::Draws;
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
 use dalembert_checker::polynomial::{Polynomial, Powers, Variable, exponent};
-use dalembert_checker::program::{Operand, Program, argument};
+use dalembert_checker::program::{Operand, Program, Step, argument};
 use dalembert_checker::work::Work;
 use num_rational::BigRational;
 
@@ -117,16 +117,11 @@ fn products_of_two_accelerations_loads_or_errors_count_with_their_magnitudes() {
         for other in ones {
             let are_errors = [factor, other].map(|kind| format!("{kind:?}").ends_with("Error"));
             let is_left_out = factor == other || are_errors == [true; 2];
-            let product = variable(factor, 21)
-                .times(&variable(other, 3), work)
-                .unwrap();
-            assert_eq!(
-                product.terms.is_empty(),
-                is_left_out,
-                "{factor:?} {other:?}"
-            );
-            assert_eq!(product.rest >= 0.25, is_left_out, "{factor:?} {other:?}");
-            for (key, _) in &product.terms {
+            let product = variable(factor, 21).times(&variable(other, 3), work);
+            let Polynomial { terms, rest } = product.unwrap();
+            let are_left_out = [terms.is_empty(), rest >= 0.25];
+            assert_eq!(are_left_out, [is_left_out; 2], "{factor:?} {other:?}");
+            for (key, _) in &terms {
                 let powers = [exponent(*key, factor, 21), exponent(*key, other, 3)];
                 assert_eq!(powers, [1, 1], "{factor:?} {other:?}");
                 assert_eq!(exponent(*key, factor, 20) + exponent(*key, other, 2), 0);
@@ -160,28 +155,20 @@ fn gravity_is_a_ball() {
     let domain = Domain::read(FLOATING, None, &["q", "g"], None).unwrap();
     let gravity = argument("g").unwrap();
     let entry = |index: usize| Operand::Entry(gravity, index);
-    let shown = |steps: Vec<(char, [Operand<Exact>; 2])>, most: f64| {
-        let last = Operand::Step(steps.len() - 1);
-        let program = Program {
-            steps,
-            outputs: vec![(false, last)],
-        };
-        let written = domain.write(&program, None).unwrap();
+    let shown = |steps: Vec<Step<Exact>>, most: f64| {
+        let outputs = vec![(false, Operand::Step(steps.len() - 1))];
+        let written = domain.write(&Program { steps, outputs }, None).unwrap();
         domain.decide(&written[0], most).0.is_shown
     };
-    let turned = || {
-        vec![
-            ('*', [Operand::Sine(0, true), entry(0)]),
-            ('*', [Operand::Sine(0, false), entry(2)]),
-            ('+', [Operand::Step(0), Operand::Step(1)]),
-        ]
-    };
-    assert!(shown(turned(), 9.9));
-    assert!(!shown(turned(), 9.8));
+    let turned = vec![
+        ('*', [Operand::Sine(0, true), entry(0)]),
+        ('*', [Operand::Sine(0, false), entry(2)]),
+        ('+', [Operand::Step(0), Operand::Step(1)]),
+    ];
+    assert!(shown(turned.clone(), 9.9) && !shown(turned, 9.8));
     let square = Exact::read("96.2361").unwrap();
-    let mut steps: Vec<(char, [Operand<Exact>; 2])> = (0..3)
-        .map(|index| ('*', [entry(index), entry(index)]))
-        .collect();
+    let squared = |index| ('*', [entry(index), entry(index)]);
+    let mut steps: Vec<Step<Exact>> = (0..3).map(squared).collect();
     steps.push(('+', [Operand::Step(0), Operand::Step(1)]));
     steps.push(('+', [Operand::Step(2), Operand::Step(3)]));
     steps.push(('-', [Operand::Step(4), Operand::Constant(square)]));

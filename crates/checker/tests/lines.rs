@@ -41,14 +41,8 @@ fn trusted_lines_are_named_and_counted() {
 #[test]
 fn dependencies_are_named() {
     let manifest = file("crates/checker/Cargo.toml");
-    let lines = manifest
-        .split("[dependencies]\n")
-        .nth(1)
-        .unwrap()
-        .split("\n[")
-        .next()
-        .unwrap()
-        .lines();
+    let (_, behind) = manifest.split_once("[dependencies]\n").unwrap();
+    let lines = behind.split("\n[").next().unwrap().lines();
     let names: Vec<&str> = lines
         .filter_map(|line| line.split(['.', ' ']).next())
         .filter(|name| !name.is_empty())

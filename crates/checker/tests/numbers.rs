@@ -41,11 +41,8 @@ fn the_nearest_float_is_told_from_its_neighbours() {
     let zero = Exact::read("0").unwrap();
     assert!(zero.is_nearest(0.0, false) && !zero.is_nearest(-0.0, false));
     // Relations of sines of multiples of 15° make constants zero, and no others do.
-    for text in [
-        "-1+2*cos(1*pi/4)^2",
-        "-3+4*cos(1*pi/6)^2",
-        "-1/2+1*sin(1*pi/6)",
-    ] {
+    let sums = "-1+2*cos(1*pi/4)^2 -3+4*cos(1*pi/6)^2 -1/2+1*sin(1*pi/6)";
+    for text in sums.split(' ') {
         let vanishing = Exact::read(text).unwrap();
         assert!(vanishing.is_nearest(0.0, false), "{text}");
         let off = Exact::read(&format!("{text}+1/1{}", "0".repeat(120))).unwrap();

@@ -90,10 +90,8 @@ fn sines_of_a_list_behind_the_call() {
     let reason = read(&late).unwrap_err();
     assert!(reason.contains("neither the angle"), "{reason}");
     // As many angles as nobody has need no room.
-    let many = good
-        .replace("[1]", "[99999999999]")
-        .replace("sines_1", "sines_99999999999");
-    let refusal = read(&many).unwrap_err();
+    let many = good.replace("[1]", "[99999999999]");
+    let refusal = read(&many.replace("sines_1", "sines_99999999999")).unwrap_err();
     assert!(refusal.contains("as many angles"), "{refusal}");
 }
 
@@ -111,21 +109,9 @@ fn loops_over_limbs() {
             ("double u1[1]", "const double u1[1]", "`=` expected"),
             ("{0.5, -0.5}", "{0.5, q[0]}", "an array of numbers"),
             // In C++ it would keep the value of the first call.
-            (
-                "const double t1 = w1",
-                "static const double t1 = w1",
-                "`[` expected",
-            ),
-            (
-                "double w1[1][2]",
-                "double w01[1][2]",
-                "another name of an array",
-            ),
-            (
-                "double w1[1][2]",
-                "double while[1][2]",
-                "another name of an array",
-            ),
+            ("}\nconst double", "}\nstatic const double", "`[` expected"),
+            ("w1[1][2]", "w01[1][2]", "another name of an array"),
+            ("w1[1][2]", "while[1][2]", "another name of an array"),
             // Octal numbers.
             ("double w1[1][2]", "double w1[01][2]", "lengths of an array"),
             ("double w1[1][2]", "double w1[1][02]", "lengths of an array"),
@@ -141,11 +127,7 @@ fn loops_over_limbs() {
                 "const double s1 = sin(q[0]);\nconst double t1 = u1",
                 "sines are taken before lanes",
             ),
-            (
-                "double w1[1][2];",
-                "double w1[1][2];\nARM_FORGET(k1);",
-                "an array of lanes",
-            ),
+            ("for (", "ARM_FORGET(k1);\nfor (", "an array of lanes"),
             ("double w1[1][2]", "double w1[1][65]", "lengths of an array"),
             ("double w1[1][2]", "double w1[2][2]", "no lane writes"),
             ("l < 2", "l < 1", "a loop over lanes"),

@@ -70,16 +70,13 @@ fn row(result: &ResultBound, robot: &Robot, base: usize) -> Vec<Cell> {
     let cell = |x: f64| Cell::of(bound_of(x, 4), x);
     let bound = result.relative();
     // An entry of D has two: its row and its column.
-    let joints = result
-        .joints
-        .iter()
-        .map(|coordinate| match coordinate.checked_sub(base) {
-            Some(joint) => (joint + 1).to_string(),
-            None => robot.coordinate_label(*coordinate),
-        });
+    let label = |coordinate: &usize| match coordinate.checked_sub(base) {
+        Some(joint) => (joint + 1).to_string(),
+        None => robot.coordinate_label(*coordinate),
+    };
     cells![
         result.field.clone(),
-        joints.collect::<Vec<_>>().join(", "),
+        Vec::from_iter(result.joints.iter().map(label)).join(", "),
         Cell::of(bound_of(result.scale, 5), result.scale),
         cell(bound.real),
         cell(bound.rounding),
@@ -111,12 +108,11 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let certificate = certify(source, &claim, &robot.robot_file, &demand)
         .map_err(|fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
-    let results = |line: &FunctionReport| {
-        line.result
-            .as_ref()
-            .map_or(0, |findings| findings.results.len())
+    let has_results = |line: &FunctionReport| {
+        let findings = line.result.as_ref();
+        findings.is_ok_and(|findings| !findings.results.is_empty())
     };
-    report.line(match certificate.lines.iter().any(|line| results(line) > 0) {
+    report.line(match certificate.lines.iter().any(has_results) {
         false => {
             "shown: apart from rounding, the code gives the robot's results at every state of the box.\n\
              rounding: the largest error, as a part of the largest value of that result, and in u: 2^-53 in f64, 2^-24 in f32."
@@ -158,12 +154,9 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let findings = line.result.as_ref().ok();
         let worst = findings.and_then(worst);
         if let Some(details) = findings.filter(|details| !details.results.is_empty()) {
-            let results = Table::new(RESULTS).with(
-                details
-                    .results
-                    .iter()
-                    .map(|result| row(result, &robot.robot, base)),
-            );
+            let bounds = details.results.iter();
+            let rows = bounds.map(|result| row(result, &robot.robot, base));
+            let results = Table::new(RESULTS).with(rows);
             report.value(&format!("within/{}", line.name), results.json());
             report.rows(results);
         }
@@ -230,13 +223,8 @@ fn words(line: &FunctionReport) -> String {
                 (None, bounded) => format!("shown; {}", bounded.unwrap_or_default()),
                 (Some(measured), None) => format!("measured, not shown; {measured}"),
                 (Some(measured), Some(bounded)) => {
-                    let names = shown
-                        .costs
-                        .iter()
-                        .filter(|cost| cost.is_bounded)
-                        .map(|cost| cost.name.as_str())
-                        .collect::<Vec<&str>>()
-                        .join(", ");
+                    let costs = shown.costs.iter().filter(|cost| cost.is_bounded);
+                    let names = Vec::from_iter(costs.map(|cost| cost.name.as_str())).join(", ");
                     format!("measured, not shown; {measured}; of {names} {bounded}")
                 }
             }
@@ -249,10 +237,7 @@ fn worst(shown: &Findings) -> Option<&Cost> {
     shown.worst(false).or_else(|| shown.worst(true))
 }
 
-/// Returns a note if the robot was edited since.
-///
-/// # Errors
-/// The file names another robot, or other options for its chain.
+/// Returns a note if the robot was edited since; fails if the file names another one, or another chain.
 fn origin(args: &CertifyArgs, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
     let file = &args.file;
     let (arm, hash) = (&robot.robot, input_hash(&robot.robot));

@@ -17,9 +17,7 @@ pub struct Dot {
     pub kind: usize,
     /// Operations, those of its sines included.
     pub cost: f64,
-    /// The bound of the error.
     pub bound: f64,
-    /// The largest error that was seen.
     pub observed: Option<f64>,
     /// True if another variant is neither dearer nor worse.
     pub dominated: bool,

@@ -8,18 +8,15 @@ use dalembert_model::robot::Robot;
 use crate::measure::{Bench, Code, largest};
 use crate::report::{COUNTS, Cell, Report, Table, cells, counted, counts};
 
-/// The detail of a report.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// Operations, and that they were proved.
     Counts,
     /// The bounds under a tolerance, too.
     Bounds,
-    /// Everything.
     Whole,
 }
 
-/// Describes what was generated for a robot.
 pub fn report(
     robot: &Robot,
     request: &Request,
@@ -44,11 +41,7 @@ pub fn report(
             tolerance(&mut report, function.function, admitted, generated.ended);
         }
     }
-    let proved = match generated
-        .functions
-        .iter()
-        .any(|function| function.admitted.is_some())
-    {
+    let proved = match has_tolerance(generated) {
         true => "proved before anything was left out, and shown to stay within the tolerance",
         false => "proved equal to the equations of motion",
     };
@@ -60,6 +53,11 @@ pub fn report(
     report.value("warnings", generated.warnings.clone());
     report.value("ended_early", generated.ended);
     report
+}
+
+fn has_tolerance(generated: &GeneratedCode) -> bool {
+    let mut functions = generated.functions.iter();
+    functions.any(|function| function.admitted.is_some())
 }
 
 fn operations(generated: &GeneratedCode, detail: Detail) -> Table {
@@ -89,16 +87,11 @@ fn operations(generated: &GeneratedCode, detail: Detail) -> Table {
 fn lanes_of(function: &GeneratedFunction) -> Option<Vec<Cell>> {
     let program = &function.program;
     let total = program.dag.operations().count();
-    let loops = program.loops.iter();
-    let inside: usize = loops
-        .map(|lane_loop| lane_loop.rows * lane_loop.lanes)
-        .sum();
+    let operations = |lane_loop: &Loop| lane_loop.rows * lane_loop.lanes;
+    let inside: usize = program.loops.iter().map(operations).sum();
     let joined = |number: fn(&Loop) -> usize| {
-        let numbers = program
-            .loops
-            .iter()
-            .map(|lane_loop| number(lane_loop).to_string());
-        numbers.collect::<Vec<String>>().join(" + ")
+        let text = |lane_loop: &Loop| number(lane_loop).to_string();
+        Vec::from_iter(program.loops.iter().map(text)).join(" + ")
     };
     (inside > 0).then(|| {
         cells![
@@ -130,11 +123,8 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
         report.line(format!("\n{refused}"));
     }
     // What a tolerance admits has its bounds.
-    let has_tolerance = generated
-        .functions
-        .iter()
-        .any(|function| function.admitted.is_some());
-    if let Some(setup) = request.prepare(robot).ok().filter(|_| !has_tolerance) {
+    let is_exact = !has_tolerance(generated);
+    if let Some(setup) = request.prepare(robot).ok().filter(|_| is_exact) {
         let states = affordable_states(robot.joints.len());
         let drawn = setup.states(states, SEED);
         let bench = Bench::new(setup);
@@ -154,10 +144,8 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     let mut stages = Table::new(&format!("function|stage|{COUNTS}"));
     for function in &generated.functions {
         // What the tolerance left of it is what is emitted.
-        let last = function
-            .admitted
-            .is_some()
-            .then(|| ("tolerance", function.counts()));
+        let has_tolerance = function.admitted.is_some();
+        let last = has_tolerance.then(|| ("tolerance", function.counts()));
         let passes = function.passes.iter().map(|pass| (pass.name, pass.counts));
         for (stage, operations) in passes.chain(last) {
             let mut row = cells![function.function.to_string(), stage];

@@ -9,9 +9,6 @@ use crate::output::Failure;
 use crate::report::{Report, Table, cells};
 
 /// Reports the coefficients that vanish, each with its reason, and those that nearly vanish.
-///
-/// # Errors
-/// The robot has no formulas.
 pub(crate) fn report(robot: &Robot) -> Result<Report, Failure> {
     let couplings = Couplings::new(robot)?;
     let mut report = Report::of(robot, None);
@@ -34,10 +31,8 @@ pub(crate) fn report(robot: &Robot) -> Result<Report, Failure> {
     });
     report.value("zeros", zeros.collect::<Vec<_>>());
     let near = &couplings.near;
-    let weak = near
-        .weak
-        .iter()
-        .map(|(entry, part)| json!({ "name": entry.name().text, "part": part }));
+    let pairs = near.weak.iter();
+    let weak = pairs.map(|(entry, part)| json!({ "name": entry.name().text, "part": part }));
     report.value("near/weak", weak.collect::<Vec<_>>());
     let alive = near.alive.iter().map(|alive| {
         json!({
@@ -62,11 +57,8 @@ pub(crate) fn lines(couplings: &Couplings) -> Vec<String> {
     let mut lines = vec![String::new()];
     for (reason, entries) in couplings.reasons() {
         let entries: Vec<Entry> = entries.into_iter().cloned().collect();
-        lines.push(format!(
-            "{}: {}: {reason}",
-            reason.word(),
-            shown(reason, &entries)
-        ));
+        let (word, names) = (reason.word(), shown(reason, &entries));
+        lines.push(format!("{word}: {names}: {reason}"));
     }
     for zero in &couplings.zeros {
         if let Some(rotation) = &zero.rotation {
@@ -98,15 +90,12 @@ fn shown(reason: &Reason, entries: &[Entry]) -> String {
 fn near(near: &Near) -> Vec<String> {
     let mut lines = Vec::new();
     if !near.weak.is_empty() {
-        let weak: Vec<String> = near
-            .weak
-            .iter()
-            .map(|(entry, part)| format!("{} {}", entry.name().text, percent(*part)))
-            .collect();
+        let pairs = near.weak.iter();
+        let weak = pairs.map(|(entry, part)| format!("{} {}", entry.name().text, percent(*part)));
         lines.push(String::new());
         lines.push(format!(
             "weak: the largest |D_ik| is below 2 % of √(max D_ii · max D_kk): {}",
-            weak.join(", ")
+            Vec::from_iter(weak).join(", ")
         ));
     }
     let alive = near.alive.iter().map(|alive: &Alive| {

@@ -6,7 +6,7 @@ use std::path::Path;
 use dalembert_codegen::workspace::{
     Argument, Input, Job, JointState, SEED, Setup, admitted, input_hash,
 };
-use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
+use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType};
 use dalembert_import::ChainArgs;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
@@ -72,10 +72,8 @@ pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, Gen
     let mut explanations: Vec<Explanation> = Vec::new();
     let mut programs = Vec::new();
     for &function in &request.functions {
-        if explanations
-            .iter()
-            .any(|explanation| explanation.function == function)
-        {
+        let mut others = explanations.iter();
+        if others.any(|explanation| explanation.function == function) {
             continue;
         }
         let (rows, program) = steps::exact(&job, function)?;
@@ -166,15 +164,9 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         let mut files = Files::new(context, &[&args.robot]);
         let is_written = output.is_some() || !context.json;
         let target = is_written.then(|| files.output(output)).transpose()?;
-        let scene = request.scene.as_ref();
-        return formulas::run(
-            &args.formulas,
-            quantities,
-            &source.robot,
-            scene,
-            target,
-            context.json,
-        );
+        let (robot, scene) = (&source.robot, request.scene.as_ref());
+        let (args, is_json) = (&args.formulas, context.json);
+        return formulas::run(args, quantities, robot, scene, target, is_json);
     }
     let targets = targets(args, context)?;
     if targets.is_some() && args.options.0.get("scene").is_some() {
@@ -186,18 +178,16 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     let session = progress::watch(&mut request);
     let input = input_hash(&source.robot);
     if request.plan.take_if(|plan| plan.input != input).is_some() {
-        context.say(
-            "warning: the plan beside the robot file no longer fits it: a new search replaces it",
-        );
+        let why = "the plan beside the robot file no longer fits it: a new search replaces it";
+        context.say(&format!("warning: {why}"));
     }
     let explained = explain(&source.robot, &request)?;
     drop(session);
     if let Some([page, picture]) = targets {
-        let shown = picture
-            .file()
-            .unwrap_or(Path::new("picture.svg"))
-            .to_owned();
-        let [text, svg] = robot_report::page(&source.robot, &explained, &shown)?;
+        let shown = picture.file().unwrap_or(Path::new("picture.svg"));
+        let last = |explanation: &Explanation| Some(explanation.rows.last()?.counts);
+        let generated: Vec<Counts> = explained.iter().filter_map(last).collect();
+        let [text, svg] = robot_report::page(&source.robot, &generated, shown)?;
         let text = sealed(Comment::Xml, "dalembert explain", &text);
         let svg = sealed(Comment::Xml, "dalembert explain", &svg);
         return Ok(Done {
@@ -256,12 +246,8 @@ fn targets(args: &ExplainArgs, context: &Context) -> Result<Option<[Target; 2]>,
 
 fn steps_of(explanation: &Explanation) -> Table {
     let mut table = Table::new(&format!("step|.key|{COUNTS}|vector|entry"));
-    for (index, (row, rounding)) in explanation
-        .rows
-        .iter()
-        .zip(explanation.rounding(STATES))
-        .enumerate()
-    {
+    let roundings = explanation.rounding(STATES);
+    for (index, (row, rounding)) in explanation.rows.iter().zip(roundings).enumerate() {
         let is_emitted = matches!(row.code, StepCode::Emitted(..));
         let mut title = row.title().to_owned();
         if is_emitted {

@@ -9,17 +9,13 @@ use dalembert_import::first_bytes;
 use dalembert_stamp::refusal;
 use tempfile::{Builder, NamedTempFile};
 
-use crate::output::{Context, Failure};
-use crate::terminal::print;
+use crate::terminal::{Context, Failure, print};
 
 const STANDARD: &str = "-";
-
 /// Paths of this process's open files: output is appended to them, whatever they are.
 const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
-
 pub const MAX_BYTES: u64 = 1 << 28;
 
-/// The destination of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
     name: PathBuf,
@@ -72,11 +68,9 @@ impl<'c> Files<'c> {
     pub fn output(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
         let path = path.unwrap_or(Path::new(STANDARD));
         if self.context.json && path == Path::new(STANDARD) {
-            return Err(Failure::Input(
-                "error: with --json the report goes to standard output, so the file cannot go there\n  \
-                 = help: give a file by --output"
-                    .into(),
-            ));
+            let why = "with --json the report goes to standard output, so the file cannot go there\n  \
+                 = help: give a file by --output";
+            return Err(Failure::input(why));
         }
         self.add(path)
     }

@@ -79,15 +79,10 @@ impl FormulaArgs {
         let Some(path) = self.output.as_deref().filter(|path| is_regular(path)) else {
             return Ok(self.format.unwrap_or_default());
         };
-        let ending = path
-            .extension()
-            .and_then(|ending| ending.to_str())
-            .unwrap_or_default();
-        let meant = ENDINGS
-            .iter()
-            .find(|(known, _)| ending.eq_ignore_ascii_case(known));
+        let ending = path.extension().unwrap_or_default();
+        let mut endings = ENDINGS.iter();
         let is_other = |layout: Layout| self.format.is_some_and(|format| format != layout);
-        match meant {
+        match endings.find(|(known, _)| ending.eq_ignore_ascii_case(known)) {
             Some((_, layout)) if !is_other(*layout) => Ok(*layout),
             _ => Err(Failure::Input(format!(
                 "error: `{}` has not the ending of {}\n  = help: .txt is text, .md Markdown, .tex LaTeX and .py a \
@@ -101,19 +96,16 @@ impl FormulaArgs {
 
 fn word_of(layout: &Layout) -> &'static str {
     let mut layouts = Layout::all().into_iter();
-    layouts
-        .find(|(_, other)| other == layout)
-        .map_or("", |(word, _)| word)
+    let entry = layouts.find(|(_, other)| other == layout);
+    entry.map_or("", |(word, _)| word)
 }
 
 /// True for a file that is written anew: not for standard output, a device or a pipe, which have no
 /// ending.
 fn is_regular(path: &Path) -> bool {
-    let is_other = || {
-        path.metadata()
-            .is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
-    };
-    path != Path::new("-") && !is_other()
+    let metadata = path.metadata();
+    let is_other = metadata.is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir());
+    path != Path::new("-") && !is_other
 }
 
 /// Parses a quantity; a robot file in its place is told where it belongs.
@@ -144,10 +136,9 @@ pub(crate) fn run(
         style: args.style,
     };
     let formulas = Formulas::new(robot, scene, &request)?;
-    let digits = if args.all_digits {
-        Digits::All
-    } else {
-        Digits::Six
+    let digits = match args.all_digits {
+        true => Digits::All,
+        false => Digits::Six,
     };
     let Some(target) = target else {
         return Ok(in_json(&formulas, robot, scene, digits).into());
@@ -182,10 +173,8 @@ fn in_json(formulas: &Formulas, robot: &Robot, scene: Option<&Scene>, digits: Di
         report.value(&format!("formulas/{name}"), text);
     }
     for (name, sum, value) in formulas.symbols() {
-        report.value(
-            &format!("symbols/{name}"),
-            json!({ "sum": sum, "value": value }),
-        );
+        let symbol = json!({ "sum": sum, "value": value });
+        report.value(&format!("symbols/{name}"), symbol);
     }
     report
 }

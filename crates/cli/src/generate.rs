@@ -35,9 +35,8 @@ pub struct GenerateArgs {
 
 pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let language = language(args);
-    let scalars = language
-        .as_ref()
-        .map_or(&[][..], |language| language.scalars());
+    let known = language.as_ref();
+    let scalars = known.map_or(&[][..], |language| language.scalars());
     let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     if !source.is_model {
         say_notes(context, &source.robot);
@@ -113,10 +112,9 @@ fn targets(
     let mut files = Files::new(context, &inputs);
     let code = code(args, &mut files, request)?;
     let file = code.first().and_then(Target::file);
-    let claim = file.and(args.output.as_ref());
-    let claim = claim
-        .map(|file| files.add(&file.with_extension("claim.json")))
-        .transpose()?;
+    let beside = file.and(args.output.as_ref());
+    let added = beside.map(|file| files.add(&file.with_extension("claim.json")));
+    let claim = added.transpose()?;
     let plan = args.save_plan.then(|| files.add(&path)).transpose()?;
     Ok((code, [claim, plan]))
 }
@@ -132,11 +130,9 @@ fn code(
         return Ok(vec![first]);
     }
     let Some(path) = args.output.as_deref().filter(|_| first.file().is_some()) else {
-        return Err(Failure::Input(
-            "error: each scalar needs its own Rust file\n  = help: ask for one scalar, or give -o the \
-             name of a file: the f32 code goes to one that ends in _f32"
-                .into(),
-        ));
+        let why = "each scalar needs its own Rust file\n  = help: ask for one scalar, or give -o the \
+             name of a file: the f32 code goes to one that ends in _f32";
+        return Err(Failure::input(why));
     };
     let second = files.add(&beside(path, "_f32"))?;
     let target = |scalar: &ScalarType| match scalar {

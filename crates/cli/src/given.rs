@@ -6,9 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{Argument, JointState, Quantity, RunnableCode, Runtime, Sizes};
+use dalembert_model::diagnostic::closest;
 use dalembert_model::number::Rounded;
 use dalembert_model::outputs::Shape;
-use dalembert_model::read::closest;
 use dalembert_model::robot::Robot;
 use serde::Deserialize;
 
@@ -24,11 +24,8 @@ pub const BOUND: f64 = 1e-12;
 const FEW_DIGITS: f64 = 1e-4;
 
 const MOST: usize = 10;
-
 const TORQUE: &str = "torque";
-
 const GRAVITY: &str = "g";
-
 /// The condition of D, by which the source of a state judged the results that need D⁻¹.
 const REMARK: &str = "condition";
 
@@ -127,10 +124,8 @@ fn state(keys: &BTreeMap<String, Numbers>, robot: &Robot) -> (GivenState, Vec<St
         wrong.push("`q` is missing".into());
     }
     for (quantity, key) in known.keys().filter_map(|q| Some((q, q.facts().given?))) {
-        let needed = quantity
-            .arguments()
-            .iter()
-            .filter_map(|argument| argument.given());
+        let arguments = quantity.arguments().iter();
+        let needed = arguments.filter_map(|argument| argument.given());
         for missing in needed.filter(|need| *need != "q" && !keys.contains_key(*need)) {
             wrong.push(format!("`{missing}` is missing, which `{key}` depends on"));
         }
@@ -312,23 +307,17 @@ pub(crate) fn describe(
     done.report.table("given", title, table);
     let known = states.iter().flat_map(|state| state.known.keys().copied());
     let mut missed: BTreeSet<Quantity> = known.collect();
-    missed.retain(|quantity| {
-        !compared
-            .iter()
-            .any(|comparison| comparison.quantity == *quantity)
-    });
-    let missed: Vec<&str> = missed
-        .iter()
-        .filter_map(|quantity| quantity.facts().given)
-        .collect();
+    for comparison in compared {
+        missed.remove(&comparison.quantity);
+    }
+    let keys = missed.iter().filter_map(|quantity| quantity.facts().given);
+    let missed = Vec::from_iter(keys).join(", ");
     if !missed.is_empty() {
         let why = "not compared, since no function of --outputs returns it";
-        done.report.line(format!("{why}: {}", missed.join(", ")));
+        done.report.line(format!("{why}: {missed}"));
     }
-    let mut wrong: Vec<&Comparison> = compared
-        .iter()
-        .filter(|comparison| comparison.disagreeing > 0)
-        .collect();
+    let mut wrong: Vec<&Comparison> = compared.iter().collect();
+    wrong.retain(|comparison| comparison.disagreeing > 0);
     // Several functions return the same quantity: it is named once.
     wrong.sort_by_key(|comparison| comparison.quantity);
     wrong.dedup_by_key(|comparison| comparison.quantity);
@@ -340,10 +329,8 @@ pub(crate) fn describe(
         let (worst, off, total) = (&comparison.worst, comparison.disagreeing, comparison.states);
         text += &format!("\n  {worst}; {off} of {total} states disagree");
     }
-    let worst = compared
-        .iter()
-        .map(|comparison| comparison.error)
-        .fold(0.0, f64::max);
+    let errors = compared.iter().map(|comparison| comparison.error);
+    let worst = errors.fold(0.0, f64::max);
     done.failed.push(match worst < FEW_DIGITS {
         true => format!(
             "{text}\n  = help: all values agree to {:.1} digits: were they written with fewer than 17, \

@@ -8,13 +8,11 @@
 use dalembert_codegen::workspace::{
     Budget, Fault, SearchEffort, Variant, VariantSet, attempt, each,
 };
-use dalembert_codegen::{Counts, Effort, GenerateError, Program, ScalarType};
+use dalembert_codegen::{Counts, Effort, GenerateError, ScalarType};
 
-/// One variant.
 pub struct Point {
     /// Zero for the exact program.
     pub tolerance: f64,
-    /// The text with its bounds.
     pub variant: Variant,
     /// The largest E of an output.
     pub bound: f64,
@@ -29,14 +27,13 @@ pub struct Point {
 }
 
 impl Point {
-    /// Returns the name of its text.
     pub fn name(&self) -> String {
         let Variant { scalar, sines, .. } = &self.variant;
         let by = if sines.is_empty() { "" } else { "-polynomials" };
         format!("{:e}-{scalar}{by}", self.tolerance)
     }
 
-    /// Returns which kind of variant it is: scalar and sines.
+    /// Returns a number for the scalar and the source of sines.
     pub fn kind(&self) -> usize {
         let polynomials = !self.variant.sines.is_empty();
         let is_single = self.variant.scalar == ScalarType::F32;
@@ -49,7 +46,6 @@ impl Point {
         self.variant.emitted.counts().with_kernels(kernels)
     }
 
-    /// Returns its operations, those of its sines included.
     pub fn cost(&self) -> usize {
         let counts = self.counts();
         let sines = match self.variant.sines.is_empty() {
@@ -104,10 +100,7 @@ pub struct Ladder<'a> {
 const CLIMBS: usize = 4;
 
 impl<'a> Ladder<'a> {
-    /// Makes a ladder for a function in its box.
-    ///
-    /// # Errors
-    /// The reason why no scalar's exact program has bounds.
+    /// Makes a ladder for a function in its box; fails if no scalar's exact program has bounds.
     pub fn new(
         samples: usize,
         effort: Effort,
@@ -116,11 +109,8 @@ impl<'a> Ladder<'a> {
         // Bounds are as tight as what is allowed asks for: a first one tells what that may be.
         let shown = |scalar: &ScalarType| {
             let rough = budget.unedited(&[*scalar], &budget.all_allowed(1.0))?;
-            let most = rough
-                .variants
-                .iter()
-                .map(Variant::worst)
-                .fold(0.0, f64::max);
+            let bounds = rough.variants.iter().map(Variant::worst);
+            let most = bounds.fold(0.0, f64::max);
             let fine = budget.unedited(&[*scalar], &budget.all_allowed(2.0 * most));
             Ok(fine.unwrap_or(rough).variants)
         };
@@ -141,9 +131,6 @@ impl<'a> Ladder<'a> {
 
     /// Returns the variants of all tolerances, which ascend; the exact program's first; `begin` hears the
     /// name of each step.
-    ///
-    /// # Errors
-    /// A variant cannot be run.
     pub fn climb(&self, tolerances: &[f64], begin: &dyn Fn(&str)) -> Result<Vec<Point>, Fault> {
         let mut points: Vec<Point> = Vec::new();
         for tolerance in tolerances.iter().copied().chain([0.0]) {
@@ -176,23 +163,16 @@ impl<'a> Ladder<'a> {
     fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Variant> {
         let budget = self.budget;
         let allowed = budget.all_allowed(tolerance);
-        let able: Vec<&Variant> = self
-            .exact
-            .iter()
-            .filter(|variant| variant.worst() <= tolerance)
-            .collect();
-        let alike = able
-            .iter()
-            .all(|variant| variant.worst() <= SHARE * tolerance);
+        let mut able: Vec<&Variant> = self.exact.iter().collect();
+        able.retain(|variant| variant.worst() <= tolerance);
+        let mut bounds = able.iter().map(|variant| variant.worst());
+        let alike = bounds.all(|bound| bound <= SHARE * tolerance);
         let groups: Vec<&[&Variant]> = match alike {
             true => vec![&able],
             false => able.chunks(1).collect(),
         };
-        let from: Vec<Program> = before
-            .map(|point| point.variant.emitted.clone())
-            .filter(|program| program != budget.exact)
-            .into_iter()
-            .collect();
+        let program = before.map(|point| point.variant.emitted.clone());
+        let from = Vec::from_iter(program.filter(|program| program != budget.exact));
         let mut variants = Vec::new();
         for group in groups.into_iter().filter(|group| !group.is_empty()) {
             let exact = VariantSet {
@@ -205,13 +185,10 @@ impl<'a> Ladder<'a> {
                 .choose(&from, exact.clone(), &allowed, &self.effort, watch)
                 .unwrap_or(exact);
             for variant in choice.variants {
-                let polynomials = budget.with_polynomials(&choice.program, &variant, &allowed);
+                let candidate = budget.with_polynomials(&choice.program, &variant, &allowed);
+                let polynomials = candidate.ok().filter(|other| !other.sines.is_empty());
                 variants.push(variant);
-                variants.extend(
-                    polynomials
-                        .ok()
-                        .filter(|candidate| !candidate.sines.is_empty()),
-                );
+                variants.extend(polynomials);
             }
         }
         variants

@@ -2,7 +2,7 @@
 //! files; [`run`] prints and writes them, and returns the exit code.
 //!
 //! - `args`: the command line; `source`: robots and requests; `progress`: searches in the bar, and Ctrl-C
-//! - `report`: facts and tables, as text and as JSON; `terminal`: prints, beside the bar
+//! - `report`: facts and tables, as text and as JSON; `terminal`: prints, beside the bar, and fails
 //! - `files`: writes all or none; `output`: what a subcommand takes and returns
 //! - `generate`, `renew`, `count`; `code`: the report of generated code
 //! - `import`, `new`, `show`, `outputs`, `pose`; [`drawing`]: the arm in two views, as SVG

@@ -77,11 +77,8 @@ pub struct Worst {
 
 /// Returns the largest [`Worst::vector`] and [`Worst::entry`] of a function's quantities, in u.
 pub fn largest(worst: &[Worst]) -> [f64; 2] {
-    [
-        |measurement: &Worst| measurement.vector,
-        |measurement: &Worst| measurement.entry,
-    ]
-    .map(|of| worst.iter().map(of).fold(0.0, f64::max))
+    let most = |of: fn(&Worst) -> f64| worst.iter().map(of).fold(0.0, f64::max);
+    [most(|worst| worst.vector), most(|worst| worst.entry)]
 }
 
 /// States with the true values of a function there, for code in one scalar.
@@ -111,12 +108,9 @@ impl Samples {
 impl Bench {
     /// Prepares the measurement of a robot's functions.
     pub fn new(setup: Setup) -> Bench {
-        let sizes = setup
-            .robot()
-            .joints
-            .iter()
-            .flat_map(|joint| [&joint.mass, &joint.a, &joint.d])
-            .map(|size| f64::nearest_rational(size).abs());
+        let joints = setup.robot().joints.iter();
+        let parameters = joints.flat_map(|joint| [&joint.mass, &joint.a, &joint.d]);
+        let sizes = parameters.map(|parameter| f64::nearest_rational(parameter).abs());
         let largest = sizes.fold(1.0, f64::max);
         Bench {
             reference: Reference::new(&setup),
@@ -151,11 +145,8 @@ impl Bench {
         scales: &[JointState],
     ) -> Samples {
         // A state that a scalar cannot hold is another state.
-        let states: Vec<JointState> = states
-            .iter()
-            .map(|state| state.in_scalar(scalar))
-            .filter(JointState::is_finite)
-            .collect();
+        let held = states.iter().map(|state| state.in_scalar(scalar));
+        let states: Vec<JointState> = held.filter(JointState::is_finite).collect();
         let mut sizes: Vec<f64> = Vec::new();
         for state in scales {
             let values = self.runtime.run(function, state);

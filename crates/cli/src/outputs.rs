@@ -13,11 +13,8 @@ pub(crate) fn run() -> Outcome {
     let mut report = Report::default();
     let mut functions = Table::keyed("function|takes|returns|unit|meaning|results");
     for function in Function::ALL {
-        let arguments: Vec<&str> = function
-            .arguments()
-            .into_iter()
-            .map(Argument::name)
-            .collect();
+        let taken = function.arguments().into_iter();
+        let arguments: Vec<&str> = taken.map(Argument::name).collect();
         let quantities = function.quantities().iter();
         let results: Vec<[String; 3]> = quantities.map(|&quantity| result(quantity)).collect();
         let of_each = |text: fn(&[String; 3]) -> String| results.iter().map(text);
@@ -28,9 +25,8 @@ pub(crate) fn run() -> Outcome {
         let units: Vec<&str> = results.iter().map(|result| result[2].as_str()).collect();
         let (name, taken) = (function.name(), arguments.join(", "));
         report.line(format!("{name}({taken})"));
-        let described = of_each(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"))
-            .collect::<Vec<_>>()
-            .join("; ");
+        let texts = of_each(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"));
+        let described = Vec::from_iter(texts).join("; ");
         for text in [&*described, function.summary()] {
             for line in broken(text, WIDTH - 4) {
                 report.line(format!("    {line}"));
@@ -50,11 +46,8 @@ pub(crate) fn run() -> Outcome {
     for argument in Argument::ALL {
         let mut functions = Function::ALL.into_iter();
         if functions.any(|function| function.arguments().contains(&argument)) {
-            arguments.row(cells![
-                argument.name(),
-                argument.symbol(),
-                argument.meaning()
-            ]);
+            let (name, symbol) = (argument.name(), argument.symbol());
+            arguments.row(cells![name, symbol, argument.meaning()]);
         }
     }
     report.line(

@@ -110,11 +110,9 @@ fn stamped_files(paths: &[PathBuf]) -> Result<Vec<StampedFile>, Failure> {
     if paths.is_empty() {
         walk(Path::new("."), &mut files)?;
         if files.is_empty() {
-            return Err(Failure::Input(
-                "error: there is no generated file in this folder or below it\n  = help: `dalembert \
-                 generate ROBOT.toml -o FILE` writes one"
-                    .into(),
-            ));
+            let why = "there is no generated file in this folder or below it\n  = help: `dalembert \
+                 generate ROBOT.toml -o FILE` writes one";
+            return Err(Failure::input(why));
         }
     }
     Ok(files)
@@ -165,31 +163,22 @@ fn renewed(context: &Context, file: &StampedFile) -> Result<Vec<New>, Failure> {
     let mut request = source.request(&file.stamp.asked, file.language.scalars())?;
     request.language = file.language;
     let generated = source.generate(context, &mut request)?;
-    let code = generated
-        .files(&request, &file.stamp.robot, &source.text)
-        .into_iter()
-        .next()
-        .unwrap_or_default();
-    let mut new = vec![New {
-        path: file.path.clone(),
-        differs: difference(&file.text, &code),
-        text: code,
-    }];
-    let claim = claim(&source.robot, &source.robot_file, &request, &generated)
-        .map_err(Failure::input)?
-        .write();
+    let files = generated.files(&request, &file.stamp.robot, &source.text);
+    let code = files.into_iter().next().unwrap_or_default();
+    let made = |path: PathBuf, old: &str, text: String| New {
+        path,
+        differs: difference(old, &text),
+        text,
+    };
+    let mut new = vec![made(file.path.clone(), &file.text, code)];
+    let made_claim = claim(&source.robot, &source.robot_file, &request, &generated);
+    let claim = made_claim.map_err(Failure::input)?.write();
     for (path, text) in [
         (claim_of(&file.path), Ok(claim)),
         (file.path.with_extension(EXPECTED), expected(&source.robot)),
     ] {
         if let Ok(old) = fs::read_to_string(&path) {
-            let text = text?;
-            let differs = difference(&old, &text);
-            new.push(New {
-                path,
-                text,
-                differs,
-            });
+            new.push(made(path, &old, text?));
         }
     }
     Ok(new)

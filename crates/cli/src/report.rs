@@ -9,7 +9,6 @@ use dalembert_model::scene::Scene;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// The findings of a subcommand.
 #[derive(Default)]
 pub struct Report(Vec<Part>);
 
@@ -44,7 +43,6 @@ impl Report {
         self.0.push(Part::Value(key.to_owned(), value.into()));
     }
 
-    /// Adds a table for people.
     pub fn rows(&mut self, table: Table) {
         self.0.push(Part::Text(table.to_string()));
     }
@@ -152,21 +150,9 @@ impl Cell {
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Cell {
-        Cell::of(text, text)
-    }
-}
-
-impl From<String> for Cell {
-    fn from(text: String) -> Cell {
-        Cell::of(text.clone(), text)
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(count: usize) -> Cell {
-        Cell::of(count.to_string(), count)
+impl<T: Display + Into<Value>> From<T> for Cell {
+    fn from(value: T) -> Cell {
+        Cell::of(value.to_string(), value)
     }
 }
 
@@ -241,11 +227,8 @@ impl Table {
 
     pub fn json(&self) -> Value {
         let object = |cells: &[Cell], columns: &[Column]| -> Value {
-            let pairs = columns
-                .iter()
-                .zip(cells)
-                .map(|(column, cell)| (column.key.clone(), cell.1.clone()));
-            Value::Object(pairs.collect())
+            let pair = |(column, cell): (&Column, &Cell)| (column.key.clone(), cell.1.clone());
+            Value::Object(columns.iter().zip(cells).map(pair).collect())
         };
         let rows = self.rows.iter();
         match self.is_keyed {
@@ -271,11 +254,8 @@ impl Table {
         let keys = self.columns.iter();
         let heads = keys.map(|column| column.key.clone()).collect();
         let rows = self.rows.iter().map(|row| row.iter().map(cell).collect());
-        let lines = [heads]
-            .into_iter()
-            .chain(rows)
-            .map(|line: Vec<String>| line.join(",") + "\n");
-        lines.collect()
+        let line = |cells: Vec<String>| cells.join(",") + "\n";
+        iter::once(heads).chain(rows).map(line).collect()
     }
 }
 
@@ -293,9 +273,8 @@ impl Display for Table {
             let is_left = place == 0 || !cells().any(|cell| cell.1.is_number());
             let before = width(&lines[0]) + 2;
             let room = self.width.saturating_sub(before).max(LEAST);
-            let is_last = self.columns[place + 1..]
-                .iter()
-                .all(|column| column.is_hidden);
+            let mut others = self.columns[place + 1..].iter();
+            let is_last = others.all(|column| column.is_hidden);
             if is_last && is_left && wide > room {
                 let next = format!("\n{}", " ".repeat(before));
                 for (line, text) in lines.iter_mut().zip(texts()) {
@@ -315,9 +294,8 @@ impl Display for Table {
         let mut lines = lines.iter().map(|line| line.trim_end());
         let head = lines.next();
         let head = head.filter(|head| !head.is_empty() && !self.rows.is_empty());
-        head.into_iter()
-            .chain(lines)
-            .try_for_each(|line| writeln!(f, "{line}"))
+        let mut shown = head.into_iter().chain(lines);
+        shown.try_for_each(|line| writeln!(f, "{line}"))
     }
 }
 
@@ -343,19 +321,11 @@ pub fn width(text: &str) -> usize {
 /// The columns of operation counts, of which [`counts`] makes the cells.
 pub const COUNTS: &str = "mul|add|fma|div|sqrt|sincos|trig_mul|trig_add";
 
-/// Returns the cells of operation counts.
 pub fn counts(counts: &Counts) -> Vec<Cell> {
-    let numbers = [
-        counts.mul,
-        counts.add,
-        counts.fma,
-        counts.div,
-        counts.sqrt,
-        counts.sincos,
-        counts.trig_mul,
-        counts.trig_add,
-    ];
-    numbers.into_iter().map(Cell::from).collect()
+    let arithmetic = [counts.mul, counts.add, counts.fma, counts.div, counts.sqrt];
+    let sines = [counts.sincos, counts.trig_mul, counts.trig_add];
+    let numbers = arithmetic.into_iter().chain(sines);
+    numbers.map(Cell::from).collect()
 }
 
 /// Writes `, scene pick` behind a robot, if there is a scene.

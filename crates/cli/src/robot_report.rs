@@ -3,23 +3,20 @@
 
 use std::path::Path;
 
+use dalembert_codegen::Counts;
 use dalembert_formulas::couplings::Couplings;
 use dalembert_formulas::{Digits, Formulas, Quantity, Request, Style, escaped};
 use dalembert_model::robot::Robot;
 
 use crate::couplings;
 use crate::drawing;
-use crate::explain::Explanation;
 use crate::output::Failure;
 use crate::table3::comparisons;
 
-/// Writes the page and the drawing that it shows.
-///
-/// # Errors
-/// The robot has no formulas.
+/// Writes the page and the drawing that it shows, if the robot has formulas.
 pub(crate) fn page(
     robot: &Robot,
-    explained: &[Explanation],
+    generated: &[Counts],
     picture: &Path,
 ) -> Result<[String; 2], Failure> {
     let zeros = vec![0.0; robot.joints.len()];
@@ -31,9 +28,8 @@ pub(crate) fn page(
         "# {title}\n\nThe equations of motion of {title}, τ_i = Σ_k D_ik q̈_k + Σ_k Σ_m h_ikm q̇_k q̇_m + c_i, as \
          `dalembert explain` writes them.\n\n## The robot\n\n![{title}]({name})\n\n```text\n{table}\n```\n"
     );
-    let coefficients = [Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
-    page += &section(robot, "With numbers", Style::Numbers, &coefficients)?;
-    page += &section(robot, "With constants", Style::Constants, &coefficients)?;
+    page += &section(robot, "With numbers", Style::Numbers)?;
+    page += &section(robot, "With constants", Style::Constants)?;
     let couplings = Couplings::new(robot)?;
     page += &format!(
         "\n## Why coefficients vanish\n\n{} of {} vanish. Link i\\* is link i with what the base parameters of later \
@@ -41,33 +37,24 @@ pub(crate) fn page(
         couplings.zeros.len(),
         couplings.total
     );
-    for line in couplings::lines(&couplings)
-        .iter()
-        .filter(|line| !line.is_empty())
-    {
+    let lines = couplings::lines(&couplings);
+    for line in lines.iter().filter(|line| !line.is_empty()) {
         page += &format!("- {}\n", escaped(line));
     }
-    page += &counts(robot, explained);
+    page += &counts(robot, generated);
     Ok([page, svg])
 }
 
-fn section(
-    robot: &Robot,
-    title: &str,
-    style: Style,
-    quantities: &[Quantity],
-) -> Result<String, Failure> {
-    let quantities = quantities.to_vec();
+fn section(robot: &Robot, title: &str, style: Style) -> Result<String, Failure> {
+    let quantities = vec![Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity];
     let request = Request { quantities, style };
     let formulas = Formulas::new(robot, None, &request).map_err(Failure::input)?;
-    Ok(format!(
-        "\n## {title}\n\n{}",
-        formulas.in_markdown(3, Digits::Six)
-    ))
+    let text = formulas.in_markdown(3, Digits::Six);
+    Ok(format!("\n## {title}\n\n{text}"))
 }
 
 /// Writes Table 3 beside the counts of what is generated.
-fn counts(robot: &Robot, explained: &[Explanation]) -> String {
+fn counts(robot: &Robot, generated: &[Counts]) -> String {
     let mut text = String::from(
         "\n## Operations of the torques\n\nTable 3 is that of C. S. G. Lee, B. H. Lee and R. Nigam, *Development of the \
          generalized d'Alembert equations of motion for mechanical manipulators*, 1983, for this number of \
@@ -77,11 +64,8 @@ fn counts(robot: &Robot, explained: &[Explanation]) -> String {
         text += &format!("| {name}, Table 3 of the paper | {paper_mul} | {paper_add} |\n");
         text += &format!("| {name}, with this robot's numbers | {mul} | {add} |\n");
     }
-    for explanation in explained {
-        if let Some(row) = explanation.rows.last() {
-            let counts = &row.counts;
-            text += &format!("| generated | {} | {} |\n", counts.mul, counts.add);
-        }
+    for Counts { mul, add, .. } in generated {
+        text += &format!("| generated | {mul} | {add} |\n");
     }
     text
 }

@@ -43,12 +43,11 @@ pub struct ShowArgs {
 pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.robot, &args.chain)?;
     let robot = &source.robot;
-    let is_drawn = args.output.is_some() || !context.json;
-    ends_in(args.output.as_deref(), "svg")?;
+    let output = args.output.as_deref();
+    let is_drawn = output.is_some() || !context.json;
+    ends_in(output, "svg")?;
     let mut files = Files::new(context, &[&args.robot]);
-    let target = is_drawn
-        .then(|| files.output(args.output.as_deref()))
-        .transpose()?;
+    let target = is_drawn.then(|| files.output(output)).transpose()?;
     let at = position(args, robot)?;
     for (index, (text, q)) in args.at.iter().zip(&at).enumerate() {
         if let Some(warning) = doubtful(robot, index, text, *q) {
@@ -88,11 +87,8 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, Diagnostic> {
 /// A number without a unit is in radians, but may have been meant in degrees.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;
-    let limits = joint
-        .limits
-        .position
-        .as_ref()
-        .map(|ends| ends.each_ref().map(Position::to_f64));
+    let range = joint.limits.position.as_ref();
+    let limits = range.map(|ends| ends.each_ref().map(Position::to_f64));
     let turns = joint.kind == JointKind::Revolute;
     let what = match limits {
         Some([low, high]) if q < low || q > high => {
@@ -110,8 +106,9 @@ fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
         _ => String::new(),
     };
     let label = robot.joint_label(index);
-    let at = format!("{label} at {q} {unit}");
-    Some(format!("warning: --at: {at} is {what}{help}"))
+    Some(format!(
+        "warning: --at: {label} at {q} {unit} is {what}{help}"
+    ))
 }
 
 fn position(args: &ShowArgs, robot: &Robot) -> Result<Vec<f64>, Failure> {
@@ -119,15 +116,17 @@ fn position(args: &ShowArgs, robot: &Robot) -> Result<Vec<f64>, Failure> {
         return Ok(vec![0.0; robot.joints.len()]);
     }
     let value = |text: &String| {
-        match parse_decimal(text.trim()) {
-        Ok(number) => Ok(f64::nearest_rational(&number)),
-        Err(error) => Angle::parse(text).map(|angle| angle.to_f64()).map_err(|_| {
+        let error = match parse_decimal(text.trim()) {
+            Ok(number) => return Ok(f64::nearest_rational(&number)),
+            Err(error) => error,
+        };
+        let angle = Angle::parse(text).map(|angle| angle.to_f64());
+        angle.map_err(|_| {
             Failure::Input(format!(
                 "error: --at: `{text}` is {error}\n  = help: give one position per joint, in rad or m, \
                  separated by commas, e.g. 0,pi/2,0.1"
             ))
-        }),
-    }
+        })
     };
     args.at.iter().map(value).collect()
 }

@@ -89,7 +89,6 @@ impl Source {
     }
 }
 
-/// Prints the notes of a robot.
 pub fn say_notes(context: &Context, robot: &Robot) {
     for note in &robot.notes {
         context.say(&format!("note: {note}"));
@@ -99,7 +98,6 @@ pub fn say_notes(context: &Context, robot: &Robot) {
 /// The limit of acceleration where none is given, rad/s² or m/s².
 pub const ACCELERATION: i64 = 10;
 
-/// Returns the default import options for the model at a path.
 pub fn defaults(path: &Path) -> Options {
     let name = path.file_name().unwrap_or_default();
     Options {
@@ -109,7 +107,6 @@ pub fn defaults(path: &Path) -> Options {
     }
 }
 
-/// Returns the failure of a robot or a model that cannot be opened.
 pub fn unopened(path: &Path, error: OpenError) -> Failure {
     match error {
         OpenError::System(error) => system(path, &error),
@@ -119,14 +116,11 @@ pub fn unopened(path: &Path, error: OpenError) -> Failure {
 
 fn problems_of(problems: &Diagnostics) -> String {
     let one = |problem: &Diagnostic| {
-        let message = match &problem.place {
-            Place::Option(option, _) => {
-                format!("--{}: {}", option.replace('_', "-"), problem.message)
-            }
-            _ => problem.message.clone(),
+        let plain = problem.clone().at(Place::None);
+        let flagged = match &problem.place {
+            Place::Option(option, _) => plain.within(format!("--{}", option.replace('_', "-"))),
+            _ => plain,
         };
-        let flagged =
-            Diagnostic::error(message).with_help(problem.help.as_deref().unwrap_or_default());
         as_flags(flagged.render().trim_end())
     };
     problems.0.iter().map(one).collect::<Vec<_>>().join("\n\n")

@@ -75,9 +75,7 @@ impl StepRow {
 const MAX_WRITTEN: usize = 8;
 
 /// Takes all steps but what a tolerance admits; returns them, and the program that it is applied to.
-///
-/// # Errors
-/// Those of the search; of a regressor no column comes from regrouped parameters.
+/// Fails as the search does, and for a regressor: no column of it comes from regrouped parameters.
 pub(super) fn exact(
     job: &Job<'_>,
     function: Function,

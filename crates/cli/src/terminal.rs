@@ -1,14 +1,87 @@
-//! The terminal: what is printed, and the bar of a long run, which gives way to it.
+//! The terminal: what is printed, failures too, and the bar of a long run, which gives way to it.
 
+use std::cell::Cell;
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
 use anstream::{AutoStream, ColorChoice};
+use dalembert_codegen::workspace::Disproof;
+use dalembert_codegen::{Diagnostic, Diagnostics, GenerateError};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::output::Failure;
+use crate::args::as_flags;
+
+/// The failure of a run, with its text for standard error.
+#[derive(Debug)]
+pub enum Failure {
+    /// A check failed: exit code 1.
+    Check(String),
+    /// The input cannot be used: exit code 2.
+    Input(String),
+}
+
+impl Failure {
+    pub fn input(why: impl Display) -> Failure {
+        Failure::Input(format!("error: {why}"))
+    }
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(error: Diagnostic) -> Self {
+        Failure::from(Diagnostics(vec![error]))
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(errors: Diagnostics) -> Self {
+        Failure::Input(as_flags(errors.render().trim_end()))
+    }
+}
+
+impl From<GenerateError> for Failure {
+    fn from(error: GenerateError) -> Self {
+        let text = as_flags(&format!("error: {error}"));
+        match error {
+            // Failed proofs, runs and text checks are failed checks; all other errors come
+            // from the robot or the request.
+            GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large) => Failure::Input(text),
+            GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
+            _ => Failure::Input(text),
+        }
+    }
+}
+
+/// The options that all subcommands share, and whether there was a warning.
+pub struct Context {
+    pub json: bool,
+    pub force: bool,
+    pub denies_warnings: bool,
+    pub warned: Cell<bool>,
+}
+
+impl Context {
+    /// Prints notes and warnings, and records whether there was a warning.
+    pub fn say(&self, text: &str) {
+        self.heard(text.lines().any(|line| line.starts_with("warning")));
+        note(text);
+    }
+
+    /// Records whether there was a warning, without printing it.
+    pub fn heard(&self, is_warning: bool) {
+        self.warned.set(self.warned.get() || is_warning);
+    }
+
+    pub fn undenied(&self) -> Result<(), Failure> {
+        if self.warned.get() && self.denies_warnings {
+            let why = "error: --deny-warnings is set, and there were warnings";
+            return Err(Failure::Check(why.into()));
+        }
+        Ok(())
+    }
+}
 
 const QUIET: Duration = Duration::from_secs(2);
 

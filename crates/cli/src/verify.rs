@@ -40,42 +40,35 @@ pub struct VerifyArgs {
 }
 
 const MAX_STATES_BYTES: u64 = 1 << 28;
-
 const CLIMBS: usize = 2;
 
 pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.task.robot, &args.task.chain)?;
     let robot = &source.robot;
     let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
-    let file_states = args
-        .given
-        .as_deref()
-        .map(|file| given_states(file, &source, &request))
-        .transpose()?;
+    let file = args.given.as_deref();
+    let reading = file.map(|file| given_states(file, &source, &request));
+    let file_states = reading.transpose()?;
     // What cannot be proved is not generated: this ends with the reason.
     let generated = source.generate(context, &mut request)?;
     let mut done = Done::from(Report::of(robot, request.scene.as_ref()));
     let mut proofs = Table::new("function=|proof=");
     for function in &generated.functions {
-        proofs.row(cells![
-            function.function.to_string(),
-            function.proof.to_string()
-        ]);
+        let (name, proof) = (function.function.to_string(), function.proof.to_string());
+        proofs.row(cells![name, proof]);
     }
     done.report.table("proofs", "", proofs);
     let setup = request.prepare(robot).map_err(GenerateError::from)?;
     let states = setup.states(args.states, SEED);
     let claimed = claims(&setup, &generated, &mut done)?;
     let bench = Bench::new(setup);
-    if let Some((file, states)) = args.given.as_ref().zip(file_states) {
+    if let Some((file, states)) = file.zip(file_states) {
         // A state rounded to f32 is another state.
         let emitted = generated.emitted.iter();
         let double = emitted.filter(|code| code.scalar == ScalarType::F64);
-        let compared: Vec<Comparison> = double
-            .flat_map(|emitted| {
-                given::compare(emitted, bench.runtime(), bench.setup().robot(), &states)
-            })
-            .collect();
+        let (runtime, robot) = (bench.runtime(), bench.setup().robot());
+        let comparisons = double.flat_map(|code| given::compare(code, runtime, robot, &states));
+        let compared: Vec<Comparison> = comparisons.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }
     // What a tolerance left out is no rounding: its bound is E.
@@ -108,10 +101,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Reads the states of a file.
-///
-/// # Errors
-/// They cannot be read, or nothing in them can be compared with what the request generates.
+/// Reads the states of a file; fails if nothing in them can be compared with what is generated.
 fn given_states(
     file: &Path,
     source: &Source,
@@ -119,24 +109,18 @@ fn given_states(
 ) -> Result<Vec<GivenState>, Failure> {
     let shown = file.display();
     let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
-    let setup = request
-        .prepare(&source.robot)
-        .map_err(GenerateError::from)?;
+    let robot = &source.robot;
+    let setup = request.prepare(robot).map_err(GenerateError::from)?;
     let states = given::read(&text(file, MAX_STATES_BYTES)?, setup.robot()).map_err(fail)?;
-    let known: BTreeSet<Quantity> = states
-        .iter()
-        .flat_map(|state| state.known.keys().copied())
-        .collect();
+    let quantities = states.iter().flat_map(|state| state.known.keys().copied());
+    let known: BTreeSet<Quantity> = quantities.collect();
     let functions = request.functions.iter().copied();
     let returned: BTreeSet<Quantity> = functions.flat_map(given::quantities).collect();
-    let keys: Vec<&str> = known
-        .iter()
-        .filter_map(|quantity| quantity.facts().given)
-        .collect();
+    let words = known.iter().filter_map(|quantity| quantity.facts().given);
+    let keys = Vec::from_iter(words).join(", ");
     let why = if keys.is_empty() {
         "no state has any of tau, D, h, c".to_owned()
     } else if known.is_disjoint(&returned) {
-        let keys = keys.join(", ");
         format!("the states have {keys}, which no function of --outputs returns")
     } else if !request.scalars.contains(&ScalarType::F64) {
         "states are doubles, and only f32 code is generated\n  = help: --scalar f64".to_owned()

@@ -22,9 +22,8 @@ type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 fn campaign(places: Range<usize>, count: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
     let functions = Function::ALL.into_iter();
-    let outputs: Vec<Function> = functions
-        .filter(|function| function.takes_fixed_base())
-        .collect();
+    let fixed = functions.filter(|function| function.takes_fixed_base());
+    let outputs: Vec<Function> = fixed.collect();
     let mut next = 0;
     for (place, (seed, robot, _)) in robots(places.end, 0xacc0).enumerate() {
         let n = robot.joints.len();

@@ -68,11 +68,8 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     let mut failures = Vec::new();
     let cases = read(scalar);
     assert_eq!(cases.len(), 114);
-    let firsts: Vec<&String> = cases
-        .iter()
-        .map(|case| &case.id)
-        .filter(|id| id.ends_with("_00"))
-        .collect();
+    let ids = cases.iter().map(|case| &case.id);
+    let firsts: Vec<&String> = ids.filter(|id| id.ends_with("_00")).collect();
     let is_tried = |case: &&Extreme| {
         let joints = case.robot.joints.len();
         let place = firsts.iter().position(|first| **first == case.id);
@@ -85,14 +82,12 @@ fn categories_meet_their_criteria(scalar: ScalarType, longest: usize) {
     };
     for case in cases.iter().filter(is_tried) {
         let (robot, state) = (&case.robot, &case.state);
-        let known = robots
-            .iter()
-            .position(|(known, ..)| known == robot)
-            .unwrap_or_else(|| {
-                let bench = Bench::new(Setup::whole(robot));
-                robots.push((robot.clone(), bench, emitted(robot, scalar, longest)));
-                robots.len() - 1
-            });
+        let place = robots.iter().position(|(known, ..)| known == robot);
+        let known = place.unwrap_or_else(|| {
+            let bench = Bench::new(Setup::whole(robot));
+            robots.push((robot.clone(), bench, emitted(robot, scalar, longest)));
+            robots.len() - 1
+        });
         let (_, bench, emitted) = &robots[known];
         let scales = drawn_like(robot, state);
         for program in emitted {
@@ -193,9 +188,8 @@ fn robot(json: &Value, scalar: ScalarType) -> Robot {
 }
 
 fn right_angle(pair: (f64, f64)) -> Angle {
-    let turns = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)]
-        .iter()
-        .position(|known| *known == pair);
+    let pairs = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
+    let turns = pairs.iter().position(|known| *known == pair);
     Angle::right_angles(turns.expect("a right angle") as i64)
 }
 

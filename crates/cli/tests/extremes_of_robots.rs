@@ -15,10 +15,8 @@ const STATES: usize = 10;
 
 fn all_good(rows: &[Row]) {
     let mut verdicts = rows.iter().map(|row| row.verdict);
-    assert!(
-        verdicts.all(|verdict| verdict == Verdict::Good),
-        "{rows:#?}"
-    );
+    let are_good = verdicts.all(|verdict| verdict == Verdict::Good);
+    assert!(are_good, "{rows:#?}");
 }
 
 #[test]
@@ -49,9 +47,8 @@ fn limbs_are_taken_to_their_extremes() {
     let robot = support::robot("two_legs");
     let masses = |change: Change| -> Vec<f64> {
         let changed = change.apply(&robot).unwrap();
-        let masses = changed
-            .bodies()
-            .map(|body| f64::nearest_rational(&body.mass));
+        let bodies = changed.bodies();
+        let masses = bodies.map(|body| f64::nearest_rational(&body.mass));
         masses.collect()
     };
     let whole = masses(Change::None);
@@ -62,31 +59,24 @@ fn limbs_are_taken_to_their_extremes() {
     assert_eq!(masses(Change::Massless(1)), light);
     assert_eq!(masses(Change::MasslessBase), [&[0.0], &whole[1..]].concat());
     let ratio = masses(Change::Masses(-6));
-    assert!(
-        (ratio[2] / whole[2] - 1e-6).abs() < 1e-18 && ratio[1] == whole[1] && ratio[3] == whole[3]
-    );
+    assert!((ratio[2] / whole[2] - 1e-6).abs() < 1e-18);
+    assert_eq!([ratio[1], ratio[3]], [whole[1], whole[3]]);
     let long = Change::Lengths(6).apply(&robot).unwrap();
     let placed = |robot: &Robot| robot.joints[1].place.clone().unwrap().placement.xyz[1].clone();
     let million = Rational::from_integer(1_000_000.into());
     assert_eq!(placed(&long), placed(&robot) * million);
-    assert!(
-        Change::MasslessBase
-            .apply(&support::robot("puma560"))
-            .is_none()
-    );
+    let fixed = Change::MasslessBase.apply(&support::robot("puma560"));
+    assert!(fixed.is_none());
     let request = Request::new(&[Function::InverseDynamics]);
     let rows = torques(&robot, &request, STATES).unwrap();
-    let cases = [
+    for case in [
         "tips of 1 g",
         "massless base",
         "lengths, long hand",
         "static near balance",
-    ];
-    assert!(
-        cases
-            .iter()
-            .all(|case| rows.iter().any(|row| row.case == *case))
-    );
+    ] {
+        assert!(rows.iter().any(|row| row.case == case), "{case}");
+    }
     all_good(&rows);
 }
 
@@ -184,8 +174,7 @@ fn what_is_lost_next_to_singular_is_the_condition() {
     let rows = divided(&robot, &request, STATES).unwrap();
     all_good(&rows);
     let worst = rows.iter().flat_map(|row| &row.worst);
-    let lost = worst
-        .map(|worst| worst.vector * worst.condition)
-        .fold(0.0, f64::max);
+    let losses = worst.map(|worst| worst.vector * worst.condition);
+    let lost = losses.fold(0.0, f64::max);
     assert!(lost > VECTOR, "{lost} u: nothing was near singular");
 }

@@ -87,22 +87,18 @@ fn the_last_row_is_what_is_generated() {
         let generated = generate(&reading.robot, &request).unwrap();
         assert_eq!(explained.len(), functions.len());
         for explanation in explained {
-            let mut candidates = generated.functions.iter();
-            let function = candidates
-                .find(|f| f.function == explanation.function)
-                .unwrap();
+            let mut functions = generated.functions.iter();
+            let same = functions.find(|f| f.function == explanation.function);
+            let function = same.unwrap();
             let last = explanation.rows.last().unwrap();
             let StepCode::Emitted(text, of) = &last.code else {
                 panic!("{:?}", last.step)
             };
             assert_eq!(*of, scalar, "{}", function.function);
             assert_eq!(last.counts, function.counts_in(scalar));
-            let emitted = generated
-                .emitted
-                .iter()
-                .find(|e| e.function == function.function)
-                .unwrap();
-            assert_eq!((**text).clone(), emitted.text);
+            let mut texts = generated.emitted.iter();
+            let emitted = texts.find(|e| e.function == function.function);
+            assert_eq!((**text).clone(), emitted.unwrap().text);
         }
     }
 }

@@ -83,12 +83,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("\nresiduals of logs that were left out, N·m: before -> after");
     for (k, file) in cross_validation(&model, &files)?.iter().enumerate() {
-        let residuals: Vec<String> = file
-            .before
-            .iter()
-            .zip(&file.after)
-            .map(|(b, a)| format!("{b:.2} -> {a:.2}"))
-            .collect();
+        let pairs = file.before.iter().zip(&file.after);
+        let residuals = Vec::from_iter(pairs.map(|(b, a)| format!("{b:.2} -> {a:.2}")));
         println!("log {k}: {}", residuals.join(", "));
     }
     let bodies = consistent(&model, &fit)?;

@@ -34,18 +34,6 @@ pub(crate) struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Returns the entries of row k over all columns of the model, z_i last.
-    pub(crate) fn spread(&self, k: usize, columns: usize) -> Vec<f64> {
-        let width = self.columns.len() + 1;
-        let entries = &self.factor[k * width..(k + 1) * width];
-        let mut row = vec![0.0; columns + 1];
-        for (column, value) in self.columns.iter().zip(entries) {
-            row[*column] = *value;
-        }
-        row[columns] = entries[width - 1];
-        row
-    }
-
     /// Returns ρ_i²: the residual that a fit of this joint alone leaves, columns independent.
     pub(crate) fn rest(&self) -> f64 {
         let last = self.factor.last().copied().unwrap_or(0.0);
@@ -56,9 +44,7 @@ impl Row<'_> {
 impl Accumulator {
     /// Returns the accumulator of no states.
     pub fn new(model: &Model) -> Accumulator {
-        let rows: Vec<Vec<usize>> = (0..model.coordinates())
-            .map(|i| model.row(i).to_vec())
-            .collect();
+        let rows = model.rows.clone();
         Accumulator {
             fingerprint: *model.fingerprint(),
             triangles: rows.iter().map(|of| Triangle::new(of.len() + 1)).collect(),
@@ -96,8 +82,7 @@ impl Accumulator {
         check("tau", tau, self.rows.len())?;
         check("y", y, self.rows.len() * width)?;
         for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {
-            let y = &y[i * width..(i + 1) * width];
-            let entries = row.iter().map(|k| y[*k]);
+            let entries = row.iter().map(|k| y[i * width + k]);
             triangle.push(entries.chain([tau[i]]));
         }
         self.states += 1;

@@ -207,11 +207,8 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
     let of_body = |body| (0..10).map(move |k| Unknown::Body(body, k));
     let bodies = 0..model.joints() + model.first_link();
     let mut unknowns: Vec<Unknown> = bodies.flat_map(of_body).collect();
-    for (unknown, _) in model
-        .columns()
-        .iter()
-        .flat_map(|column| terms(model, *column))
-    {
+    let columns = model.columns().iter();
+    for (unknown, _) in columns.flat_map(|column| terms(model, *column)) {
         if !unknowns.contains(&unknown) {
             unknowns.push(unknown);
         }

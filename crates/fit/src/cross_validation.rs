@@ -81,11 +81,11 @@ pub fn disagreeing(
         let joints = rest.iter().zip(&residuals).flat_map(|(&file, residual)| {
             let fit_residuals = fits[file].iter().flat_map(|fit| &fit.after);
             let pairs = residual.after.iter().zip(fit_residuals).enumerate();
-            pairs.map(move |(joint, (&others, &fit_residual))| Disagreement {
+            pairs.map(move |(joint, (&others, &self_fit))| Disagreement {
                 file,
                 joint,
                 others,
-                self_fit: fit_residual,
+                self_fit,
             })
         });
         let mut worst: Vec<Disagreement> = joints.filter(|one| one.size() > DISAGREES).collect();

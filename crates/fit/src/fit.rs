@@ -160,20 +160,15 @@ fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: 
     let scaled = |values: &[f64]| -> Vec<f64> {
         values.iter().zip(norms).map(|(x, norm)| x * norm).collect()
     };
-    let change: Vec<f64> = parameters
-        .iter()
-        .zip(model.parameters())
-        .map(|(parameter, file)| parameter - file)
-        .collect();
+    let pairs = parameters.iter().zip(model.parameters());
+    let change: Vec<f64> = pairs.map(|(parameter, file)| parameter - file).collect();
     let mut change = scaled(&change);
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(directions.len());
     for direction in directions {
         let mut vector = scaled(direction);
         // Twice is enough (Giraud, Langou and Rozložník 2005).
-        for _ in 0..2 {
-            for other in &basis {
-                remove(&mut vector, other);
-            }
+        for other in basis.iter().chain(&basis) {
+            remove(&mut vector, other);
         }
         let size = libm::sqrt(dot(&vector, &vector));
         if size > 0.0 {

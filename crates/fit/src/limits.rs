@@ -44,10 +44,8 @@ impl Limits {
     pub fn of_base(robot: &Robot) -> Vec<Limits> {
         let base = robot.floating.as_ref().map(|base| {
             let number = |limits: &Option<[Rational; 6]>, k: usize, usual: [f64; 2]| {
-                let limit = limits
-                    .as_ref()
-                    .map(|ratios| f64::nearest_rational(&ratios[k]));
-                limit.unwrap_or(usual[usize::from(k >= 3)])
+                let limit = limits.as_ref().map(|limits| &limits[k]);
+                limit.map_or(usual[usize::from(k >= 3)], f64::nearest_rational)
             };
             [0, 1, 2, 3, 4, 5].map(|k| Limits {
                 position: [0.0; 2],

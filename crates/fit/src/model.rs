@@ -52,7 +52,7 @@ pub struct Model {
     combinations: Vec<Vec<(Parameter, f64)>>,
     chain: Chain<f64>,
     widths: Vec<f64>,
-    rows: Vec<Vec<usize>>,
+    pub(crate) rows: Vec<Vec<usize>>,
     parameters: Vec<f64>,
     fingerprint: [u8; 32],
 }
@@ -160,15 +160,9 @@ impl Model {
     /// Returns the lengths of q, q̇ and q̈: where the base floats, gravity in its axes stands behind the
     /// positions.
     pub fn lengths(&self) -> [usize; 3] {
-        let gravity = match self.robot.floating {
-            Some(_) => 3,
-            None => 0,
-        };
-        [
-            self.joints() + gravity,
-            self.coordinates(),
-            self.coordinates(),
-        ]
+        let gravity = if self.robot.floating.is_some() { 3 } else { 0 };
+        let rates = self.coordinates();
+        [self.joints() + gravity, rates, rates]
     }
 
     /// Draws a state within limits so many times as wide; gravity has any direction.
@@ -227,10 +221,9 @@ impl Model {
             Column::Coulomb(joint) => format!("coulomb{}", joint + 1),
             Column::Offset(joint) => format!("offset{}", joint + 1),
             Column::Base(base) => {
-                let terms = self.combinations[base]
-                    .iter()
-                    .map(|(of, factor)| (of.to_string(), *factor));
-                sum(&Vec::from_iter(terms), |x| x.to_string())
+                let terms = self.combinations[base].iter();
+                let named = terms.map(|(of, factor)| (of.to_string(), *factor));
+                sum(&Vec::from_iter(named), |x| x.to_string())
             }
         }
     }

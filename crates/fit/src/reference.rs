@@ -41,11 +41,17 @@ impl Reference {
     }
 }
 
+/// Returns the factor of all joints' rows times their scales, over all columns and the torque.
 pub(crate) fn weighted(accumulator: &Accumulator, columns: usize, scales: &[f64]) -> Triangle {
     let mut triangle = Triangle::new(columns + 1);
     for (row, scale) in accumulator.factors().iter().zip(scales) {
-        for k in 0..row.columns.len() {
-            triangle.push(row.spread(k, columns).iter().map(|x| x * scale));
+        let count = row.columns.len();
+        for entries in row.factor.chunks(count + 1).take(count) {
+            let mut spread = vec![0.0; columns + 1];
+            for (column, value) in row.columns.iter().chain([&columns]).zip(entries) {
+                spread[*column] = value * scale;
+            }
+            triangle.push(spread);
         }
     }
     triangle

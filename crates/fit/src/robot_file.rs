@@ -32,12 +32,8 @@ pub fn identified(model: &Model, bodies: &Bodies) -> Result<Robot, Error> {
         (base.mass, base.com, base.inertia) = (base_body.mass, base_body.com, base_body.inertia);
     }
     for (i, joint) in robot.joints.iter_mut().enumerate() {
-        let link = bodies
-            .links
-            .get(model.first_link() + i)
-            .copied()
-            .unwrap_or_default();
-        joint.set_own_body(body(&link, i)?);
+        let link = bodies.links.get(model.first_link() + i);
+        joint.set_own_body(body(&link.copied().unwrap_or_default(), i)?);
         joint.armature = rounded("armature", i, bodies.armature[i], 12)?;
         joint.viscous = rounded("viscous", i, bodies.viscous[i], 12)?;
         joint.coulomb = rounded("coulomb", i, bodies.coulomb[i], 12)?;
@@ -112,15 +108,10 @@ fn body(link: &[f64; 10], index: usize) -> Result<Body, Error> {
     })
 }
 
-fn rounded(
-    argument: &'static str,
-    index: usize,
-    value: f64,
-    digits: usize,
-) -> Result<Rational, Error> {
+fn rounded(name: &'static str, index: usize, value: f64, digits: usize) -> Result<Rational, Error> {
     let number = parse_decimal(&format!("{value:.digits$e}"));
     number.map_err(|_| Error::Value {
-        argument,
+        argument: name,
         index,
         found: value,
     })

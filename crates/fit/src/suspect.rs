@@ -61,13 +61,12 @@ pub fn suspect(model: &Model, log: [&[f64]; 4]) -> Result<Option<Suspicion>, Err
     let degrees = core::f64::consts::PI / 180.0;
     let pairs = (0..n).flat_map(|i| (0..i).map(move |j| (j, i)));
     let delays = (0..7).flat_map(|k| [1 << k, -(1 << k), 3 << k >> 1, -(3 << k >> 1)]);
-    let changes = [degrees, 1.0 / degrees]
-        .into_iter()
-        .map(Change::Angles)
-        .chain(pairs.clone().map(|(i, j)| Change::Torques(i, j)))
-        .chain(pairs.map(|(i, j)| Change::Joints(i, j)));
+    let mut changes = vec![Change::Angles(degrees), Change::Angles(1.0 / degrees)];
+    changes.extend(pairs.clone().map(|(i, j)| Change::Torques(i, j)));
+    changes.extend(pairs.map(|(i, j)| Change::Joints(i, j)));
+    changes.extend(delays.map(Change::Late));
     let (mut best, mut least) = (None, LESS * before);
-    for change in changes.chain(delays.map(Change::Late)) {
+    for change in changes {
         let after = unexplained_part(model, log, rows, Some(change))?;
         if after < least {
             (best, least) = (Some(change), after);
@@ -115,13 +114,9 @@ fn unexplained_part(
             *sum += tau * tau;
         }
     }
-    let part = |(noise, squares): (f64, f64)| {
-        let mean_square = squares / data.states() as f64;
-        if mean_square > 0.0 {
-            noise * noise / mean_square
-        } else {
-            0.0
-        }
+    let part = |(noise, squares): (f64, f64)| match squares / data.states() as f64 {
+        mean_square if mean_square > 0.0 => noise * noise / mean_square,
+        _ => 0.0,
     };
     let parts = noise(&data)?.into_iter().zip(squares).map(part);
     Ok(libm::sqrt(parts.sum::<f64>() / n as f64))

@@ -128,20 +128,16 @@ impl Weights<'_> {
         let unit = |direction: &Vec<f64>| norm(&self.reference.r, direction);
         let units: Vec<f64> = directions.iter().map(unit).collect();
         let motions = self.motions(directions, &units)?;
-        let descriptions =
-            directions
-                .iter()
-                .zip(units)
-                .zip(motions)
-                .map(|((direction, unit), motion)| {
-                    let combination = self.leading(direction);
-                    UnexcitedDirection {
-                        name: named(self.model, &combination),
-                        motion,
-                        combination,
-                        excitation: norm(r, direction) / (root * unit),
-                    }
-                });
+        let parts = directions.iter().zip(units).zip(motions);
+        let descriptions = parts.map(|((direction, unit), motion)| {
+            let combination = self.leading(direction);
+            UnexcitedDirection {
+                name: named(self.model, &combination),
+                motion,
+                combination,
+                excitation: norm(r, direction) / (root * unit),
+            }
+        });
         Ok(descriptions.collect())
     }
 

@@ -5,12 +5,9 @@ use dalembert_fit::{Accumulator, Error, Model, fit};
 
 use crate::support::{ARMS, State, accumulated, arm, file, model, states, torques};
 
-fn in_parts(
-    model: &Model,
-    both: &[(&State, &Vec<f64>)],
-    parts: usize,
-    batch: usize,
-) -> Accumulator {
+type Logged<'a> = (&'a State, &'a Vec<f64>);
+
+fn in_parts(model: &Model, both: &[Logged], parts: usize, batch: usize) -> Accumulator {
     let mut total = Accumulator::new(model);
     for part in both.chunks(both.len().div_ceil(parts)) {
         let mut subtotal = Accumulator::new(model);
@@ -92,10 +89,8 @@ fn residuals_need_no_second_look() {
     }
     for (residual, square) in residuals.iter().zip(squares) {
         let wanted = (square / 300.0).sqrt();
-        assert!(
-            (residual - wanted).abs() < 1e-11 * wanted,
-            "{residual} {wanted}"
-        );
+        let off = (residual - wanted).abs();
+        assert!(off < 1e-11 * wanted, "{residual} {wanted}");
     }
 }
 

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::Path;
 
 use dalembert_fit::robot_file::save;
-use dalembert_fit::{Error, consistent, cross_validation, disagreeing, fit, identified};
+use dalembert_fit::{Error, consistent, cross_validation, disagreeing, identified};
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
-use crate::support::{ARMS, TREES, accumulated, arm, near, noise, states};
+use crate::support::{ARMS, TREES, accumulated, arm, fitted, near, noise, states};
 
 #[test]
 fn a_file_that_was_edited_stays() {
@@ -38,8 +38,7 @@ fn a_file_that_was_edited_stays() {
 fn the_new_robot_file_has_the_parameters() {
     for name in ARMS.into_iter().chain(["puma560_placed"]).chain(TREES) {
         let (model, right) = arm(name);
-        let data = accumulated(&model, &states(&model, 400, 42), &right, Some(41));
-        let free = fit(&model, &data).unwrap();
+        let (data, free) = fitted(&model, &right, 400, [42, 41]);
         let bodies = consistent(&model, &free).unwrap();
         let text = write(&identified(&model, &bodies).unwrap());
         let read = parse(&text).unwrap();

@@ -1,6 +1,6 @@
 //! Y π is the torque of the model's own equations, for π of the robot file.
 
-use dalembert_fit::{Column, Error, Model};
+use dalembert_fit::{Column, Model};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::JointKind;
 use nalgebra::DVector;
@@ -9,11 +9,8 @@ use crate::support::{ARMS, TREES, file, model, near, states, torques, truth};
 
 #[test]
 fn parameters_of_the_file_give_its_torques() {
-    for name in ARMS
-        .into_iter()
-        .chain(["stanford", "planar3r"])
-        .chain(TREES)
-    {
+    let others = ["stanford", "planar3r"].into_iter().chain(TREES);
+    for name in ARMS.into_iter().chain(others) {
         let truth = truth(name);
         let model = model(&truth);
         let reference = Reference::<f64>::from_robot(&truth);
@@ -65,13 +62,8 @@ fn wrong_input_is_told() {
     let short = model.regressor(&six, &six[1..], &six).unwrap_err();
     assert_eq!(short.to_string(), "`qd` has 5 values instead of 6");
     let result = model.regressor(&six, &six, &[0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0]);
-    let Err(Error::Value {
-        argument, index, ..
-    }) = result
-    else {
-        panic!("{result:?}")
-    };
-    assert_eq!((argument, index), ("qdd", 1));
+    let why = result.unwrap_err().to_string();
+    assert!(why.starts_with("`qdd[1]` is NaN"), "{why}");
     let mut still = file("puma560");
     still.joints[2].limits.velocity = Some(crate::support::number(0.0));
     let why = Model::new(&still).unwrap_err();

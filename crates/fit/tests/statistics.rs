@@ -2,7 +2,7 @@
 
 use dalembert_fit::fit;
 
-use crate::support::{ARMS, accumulated, arm, near, states};
+use crate::support::{ARMS, accumulated, arm, fitted, near, states};
 
 /// Returns the part of the parameters within three standard errors, and their root mean square.
 fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
@@ -46,9 +46,7 @@ fn three_standard_errors_cover_the_parameters_of_100_logs() {
 #[test]
 fn noise_is_each_joint_s_own() {
     let (model, right) = arm("puma560");
-    let states = states(&model, 2000, 8);
-    let data = accumulated(&model, &states, &right, Some(9));
-    let fit = fit(&model, &data).unwrap();
+    let (_, fit) = fitted(&model, &right, 2000, [8, 9]);
     for (i, noise) in fit.noise.iter().enumerate() {
         let wanted = crate::support::noise(i);
         assert!((noise / wanted - 1.0).abs() < 0.06, "{noise} {wanted}");

@@ -1,7 +1,7 @@
 //! A simulated arm under computed torque: collisions are found.
 
 use dalembert_fit::simulate::{Collision, ControlledArm, Log, LogSettings, control};
-use dalembert_fit::{Differentiator, Model, Trajectory, Watch, excite};
+use dalembert_fit::{Differentiator, Error, Model, Trajectory, Watch, excite};
 use dalembert_model::robot::Robot;
 
 use crate::support::{
@@ -31,21 +31,30 @@ impl Scene {
         }
     }
 
-    fn record(&self, collisions: &[Collision], seconds: f64, seed: u64) -> Log {
-        let controlled = ControlledArm {
+    fn arm(&self, collisions: &[Collision]) -> ControlledArm {
+        ControlledArm {
             arms: vec![(0.0, self.truth.clone())],
             controller: guess(&self.truth),
             bandwidth: 20.0,
             collisions: collisions.to_vec(),
-        };
+        }
+    }
+
+    fn controlled(&self, arm: &ControlledArm, states: usize, seed: u64) -> Result<Log, Error> {
         let recording = LogSettings {
             period: PERIOD,
-            states: (seconds / PERIOD) as usize,
+            states,
             noise: (0..6).map(noise).collect(),
             resolution: 2.0 * std::f64::consts::PI / 131_072.0,
             seed,
         };
-        control(&controlled, &self.trajectory, &recording).unwrap()
+        control(arm, &self.trajectory, &recording)
+    }
+
+    fn record(&self, collisions: &[Collision], seconds: f64, seed: u64) -> Log {
+        let states = (seconds / PERIOD) as usize;
+        let log = self.controlled(&self.arm(collisions), states, seed);
+        log.unwrap()
     }
 }
 
@@ -87,11 +96,8 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
     let others_of = |seed: u64| -> usize {
         let log = scene.record(&collisions, seconds, seed);
         let said = watched(&scene, &log, 2.0 * level);
-        let alarms: Vec<f64> = said
-            .iter()
-            .filter(|said| said.1.is_some())
-            .map(|said| said.0)
-            .collect();
+        let alarms = said.iter().filter(|said| said.1.is_some());
+        let alarms = Vec::from_iter(alarms.map(|said| said.0));
         for one in &collisions {
             let is_found = alarms.iter().any(|time| near(one, *time));
             assert!(is_found, "missed {one:?}: {alarms:?}");
@@ -123,26 +129,12 @@ fn an_hour_has_one_false_alarm_at_most() {
 #[test]
 fn scenes_and_watches_that_cannot_be_are_refused() {
     let scene = Scene::new();
-    let good = ControlledArm {
-        arms: vec![(0.0, scene.truth.clone())],
-        controller: scene.truth.clone(),
-        bandwidth: 20.0,
-        collisions: Vec::new(),
-    };
-    let recording = LogSettings {
-        period: PERIOD,
-        states: 10,
-        noise: vec![0.1; 6],
-        resolution: 0.0,
-        seed: 1,
-    };
-    let log = control(&good, &scene.trajectory, &recording).unwrap();
-    assert_eq!(log.q.len(), 10);
+    let good = scene.arm(&[]);
+    assert_eq!(scene.controlled(&good, 10, 1).unwrap().q.len(), 10);
     let refused = |states: usize, change: &dyn Fn(&mut ControlledArm)| {
-        let (mut changed, mut recording) = (good.clone(), recording.clone());
+        let mut changed = good.clone();
         change(&mut changed);
-        recording.states = states;
-        let log = control(&changed, &scene.trajectory, &recording);
+        let log = scene.controlled(&changed, states, 1);
         log.unwrap_err().to_string()
     };
     let why = refused(10, &|of| of.arms.clear());

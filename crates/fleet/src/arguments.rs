@@ -51,13 +51,13 @@ impl Shape {
         let mut rest = types;
         let mut coerced = Vec::with_capacity(types.len());
         if self.time {
-            match rest.split_first() {
-                Some((first, others)) if is_number(first) => rest = others,
-                Some((first, _)) => {
-                    return plan_err!("the time is {first}, a number was expected; {expected}");
-                }
-                None => return plan_err!("there are no arguments; {expected}"),
+            let Some((first, others)) = rest.split_first() else {
+                return plan_err!("there are no arguments; {expected}");
+            };
+            if !is_number(first) {
+                return plan_err!("the time is {first}, a number was expected; {expected}");
             }
+            rest = others;
             coerced.push(DataType::Float64);
         }
         for name in &NAMES[..self.quantities] {

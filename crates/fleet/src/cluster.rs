@@ -48,9 +48,8 @@ fn session() -> SessionConfig {
 pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), Error> {
     let builder = move |mut config: SessionConfig| {
         evaluate_once(&mut config);
-        let mut state = SessionStateBuilder::new()
-            .with_default_features()
-            .with_config(config);
+        let defaults = SessionStateBuilder::new().with_default_features();
+        let mut state = defaults.with_config(config);
         let scalars = state.scalar_functions().get_or_insert_default();
         scalars.extend(functions.scalars.iter().cloned());
         let aggregates = state.aggregate_functions().get_or_insert_default();
@@ -80,16 +79,12 @@ pub async fn executor(config: ExecutorProcessConfig, functions: Functions) -> Re
     let scheduler = format!("{}:{}", config.scheduler_host, config.scheduler_port);
     reach(&scheduler).await?;
     let mut registry = BallistaFunctionRegistry::default();
-    let scalars = functions
-        .scalars
-        .into_iter()
-        .map(|of| (of.name().to_owned(), of));
-    registry.scalar_functions.extend(scalars);
-    let aggregates = functions
-        .aggregates
-        .into_iter()
-        .map(|of| (of.name().to_owned(), of));
-    registry.aggregate_functions.extend(aggregates);
+    let scalars = functions.scalars.into_iter();
+    let named = scalars.map(|of| (of.name().to_owned(), of));
+    registry.scalar_functions.extend(named);
+    let aggregates = functions.aggregates.into_iter();
+    let named = aggregates.map(|of| (of.name().to_owned(), of));
+    registry.aggregate_functions.extend(named);
     let config = ExecutorProcessConfig {
         grpc_port: config.port + 1,
         executor_heartbeat_interval_seconds: HEARTBEAT,

@@ -35,7 +35,6 @@ enum Command {
     Executor(cluster::ExecutorArgs),
 }
 
-/// The result of a command.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// The text for standard output.
@@ -44,10 +43,7 @@ pub struct Report {
     pub failed: Option<Error>,
 }
 
-/// Runs a command.
-///
-/// # Errors
-/// What went wrong; then no output has changed.
+/// Runs a command; after an error no output has changed.
 pub async fn run(arguments: CommandLine, going: &Going) -> Result<Report, Error> {
     let text = match arguments.command {
         Command::Identify(args) => return identify::run(&args, going).await,

@@ -14,28 +14,20 @@ use dalembert_model::robot::{Robot, write};
 
 use crate::error::Error;
 
-/// Positions, velocities and accelerations of many states, in columns.
+/// Positions, rad or m, velocities and accelerations of many states, in columns.
 #[derive(Clone, Copy, Debug)]
 pub struct States<'a> {
-    /// Number of states.
     pub count: usize,
-    /// q, rad or m.
     pub q: &'a [f64],
-    /// q̇
     pub qd: &'a [f64],
-    /// q̈
     pub qdd: &'a [f64],
 }
 
 /// A robot whose functions are registered.
 pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
-    /// Returns the number of joints.
     fn joints(&self) -> usize;
 
-    /// Computes the torques of states into columns.
-    ///
-    /// # Errors
-    /// What went wrong; arrays have the lengths that `count` asks for.
+    /// Computes the torques of states into columns; arrays have the lengths that `count` asks for.
     fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error>;
 
     /// Computes residuals of so many states, in columns: measured torques less the robot's.
@@ -59,9 +51,6 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     }
 
     /// Adds states and their measured torques to a fit; `room` is memory, kept between calls.
-    ///
-    /// # Errors
-    /// As [`Dynamics::inverse_dynamics`], and where there is no [`Dynamics::model`].
     fn accumulate(
         &self,
         states: States<'_>,
@@ -142,20 +131,17 @@ impl Loaded {
             return Err(Error::new(why));
         }
         code(&arm)?.prepare_columns().map_err(Error::new)?;
-        let fitted = model.map(fitted).transpose()?;
         Ok(Loaded {
             arm,
-            fitted,
+            fitted: model.map(fitted).transpose()?,
             evaluated: Arc::default(),
         })
     }
 
-    /// Returns the robot.
     pub fn robot(&self) -> &Robot {
         self.arm.robot()
     }
 
-    /// Returns the notes about the robot.
     pub fn notes(&self) -> &[String] {
         self.arm.notes()
     }
@@ -186,9 +172,8 @@ fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
 
 fn code(arm: &Arm) -> Result<&Native, Error> {
     let mut functions = arm.functions().iter();
-    let native = functions
-        .find(|f| f.scalar() == Scalar::F64)
-        .map(|f| f.native());
+    let function = functions.find(|function| function.scalar() == Scalar::F64);
+    let native = function.map(|function| function.native());
     native.ok_or_else(|| Error::new("the generator returned no function"))
 }
 
@@ -258,13 +243,12 @@ where
     /// Returns the robot whose torques at q, q̇ and q̈ the function computes, in N·m and N; with a
     /// model of the same robot file, parameters can be identified.
     pub fn new(torques: F, model: Option<Model>) -> Result<Generated<F, N>, Error> {
-        match &model {
-            Some(model) if model.joints() != N => Err(Error::new(format!(
-                "the model has {} joints and the generated robot {N}",
-                model.joints()
-            ))),
-            _ => Ok(Generated { torques, model }),
+        let joints = model.as_ref().map_or(N, Model::joints);
+        if joints != N {
+            let why = format!("the model has {joints} joints and the generated robot {N}");
+            return Err(Error::new(why));
         }
+        Ok(Generated { torques, model })
     }
 }
 

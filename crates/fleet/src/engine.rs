@@ -20,7 +20,6 @@ use crate::logs::block::per;
 use crate::logs::{Log, Source, states};
 use crate::progress::Going;
 
-/// The resources that a query may use.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Bytes: of what readers hold, and of the engine's pool.
@@ -33,7 +32,6 @@ pub struct Limits {
 const BATCH: usize = 8192;
 const PARTITION: u64 = 32 << 20;
 
-/// The place where queries run.
 pub struct Engine {
     context: SessionContext,
     functions: Functions,
@@ -58,9 +56,8 @@ impl Engine {
         limits: Limits,
     ) -> Result<Engine, Error> {
         let pool = Arc::new(GreedyMemoryPool::new(limits.memory as usize));
-        let runtime = RuntimeEnvBuilder::new()
-            .with_memory_pool(pool)
-            .build_arc()?;
+        let runtime = RuntimeEnvBuilder::new().with_memory_pool(pool);
+        let runtime = runtime.build_arc()?;
         let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
         Ok(Engine {
             functions: register(&context, name, robot),
@@ -83,10 +80,8 @@ impl Engine {
 
         crate::cluster::reach(scheduler).await?;
         let config = config(limits.partitions).upgrade_for_ballista();
-        let state = SessionStateBuilder::new()
-            .with_default_features()
-            .with_config(config)
-            .build();
+        let defaults = SessionStateBuilder::new().with_default_features();
+        let state = defaults.with_config(config).build();
         let url = format!("df://{scheduler}");
         let context = SessionContext::remote_with_state(&url, state).await?;
         Ok(Engine {
@@ -98,15 +93,12 @@ impl Engine {
         })
     }
 
-    /// Returns true if a cluster computes, and not this machine.
     pub fn is_cluster(&self) -> bool {
         self.is_cluster
     }
 
     /// Computes an aggregate of every log as bytes, in order; a log with an unusable row is bad.
-    ///
-    /// # Errors
-    /// What is no log's fault, and that the command was ended.
+    /// The error is what is no log's fault, or that the command was ended.
     pub async fn over(
         &self,
         suffix: &str,
@@ -184,9 +176,7 @@ impl Engine {
                     let columns = names.iter().zip(factors);
                     arguments.extend(columns.map(|(name, factor)| scaled(ident(name), *factor)));
                 }
-                Some(Source::Ragged(_)) | None => {
-                    return Err(Error::new("it was not converted"));
-                }
+                Some(Source::Ragged(_)) | None => return Err(Error::new("it was not converted")),
             }
         }
         let call = aggregate.call(arguments).alias("kept");

@@ -4,12 +4,10 @@ use std::fmt;
 
 use datafusion::error::DataFusionError;
 
-/// An error of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error(String);
 
 impl Error {
-    /// Returns the error that says so.
     pub fn new(text: impl fmt::Display) -> Error {
         Error(text.to_string().trim_end().to_owned())
     }

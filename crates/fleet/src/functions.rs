@@ -111,14 +111,12 @@ impl ScalarUDFImpl for Scalar {
         let mut values = vec![0.0; n * arguments.rows];
         let mut results = Vec::new();
         arguments.each(|first, piece| {
-            let count = piece.count;
-            match shape.quantities {
-                3 => {
-                    let [q, qd, qdd, _] = &piece.quantities;
-                    results.resize(n * count, 0.0);
-                    robot.inverse_dynamics(States { count, q, qd, qdd }, &mut results)?;
-                }
-                _ => robot.residuals(count, &piece.quantities, &mut results)?,
+            let (count, [q, qd, qdd, _]) = (piece.count, &piece.quantities);
+            if shape.quantities == 3 {
+                results.resize(n * count, 0.0);
+                robot.inverse_dynamics(States { count, q, qd, qdd }, &mut results)?;
+            } else {
+                robot.residuals(count, &piece.quantities, &mut results)?;
             }
             let rows = values[first * n..].chunks_exact_mut(n).take(count);
             for (s, row) in rows.enumerate() {
@@ -137,7 +135,6 @@ impl ScalarUDFImpl for Scalar {
 }
 
 impl Functions {
-    /// Returns the functions of a robot.
     pub fn of(name: &str, robot: &Arc<dyn Dynamics>) -> Functions {
         let scalar = |suffix: &str, quantities| {
             let function = Function::new(format!("{name}_{suffix}"), robot, quantities);

@@ -102,21 +102,11 @@ impl RobotArgs {
     /// Returns the name of the robot's functions: whoever has another file has other names, and
     /// a query is refused instead of answered by another robot.
     pub fn function_name(&self, robot: &Loaded) -> String {
-        let stem = self
-            .robot
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_ascii_lowercase()
-            .replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-        let hash = robot
-            .robot()
-            .input_hash()
-            .iter()
-            .take(4)
-            .map(|byte| format!("{byte:02x}"))
-            .collect::<String>();
-        format!("{stem}_{hash}")
+        let stem = self.robot.file_stem().unwrap_or_default().to_string_lossy();
+        let is_other = |c: char| !c.is_ascii_alphanumeric();
+        let name = stem.to_ascii_lowercase().replace(is_other, "_");
+        let [first, second, third, fourth, ..] = robot.robot().input_hash();
+        format!("{name}_{first:02x}{second:02x}{third:02x}{fourth:02x}")
     }
 }
 
@@ -124,13 +114,9 @@ impl RobotArgs {
 pub struct Job {
     /// The robot, which counts what it evaluates.
     pub robot: Arc<Loaded>,
-    /// The place where queries run.
     pub engine: Engine,
-    /// The logs, in order.
     pub logs: Vec<Log>,
-    /// The progress.
     pub progress: Arc<Progress>,
-    /// The signal by which it goes on, or ends.
     pub going: Going,
     skip_bad: bool,
     threads: usize,
@@ -140,9 +126,6 @@ pub struct Job {
 
 impl Job {
     /// Loads the robot, looks at the logs, and converts those that need it.
-    ///
-    /// # Errors
-    /// What is wrong with robot or flags; bad files unless they are skipped.
     pub async fn new(args: &LogArgs, fit: bool, going: &Going) -> Result<Job, Error> {
         let files = expand(&args.logs)?;
         let robot = args.robot.load(fit, going).await?;
@@ -189,7 +172,6 @@ impl Job {
         Ok(job)
     }
 
-    /// Returns the number of rows of all logs.
     pub fn rows(&self) -> u64 {
         self.logs.iter().map(|log| log.rows).sum()
     }
@@ -206,10 +188,8 @@ impl Job {
         let total = results.len();
         let skipped = if self.skip_bad { "left out: " } else { "" };
         let tell = |bad: &Error| eprintln!("{skipped}{bad}");
-        let good: Vec<T> = results
-            .into_iter()
-            .flat_map(|one| one.inspect_err(tell))
-            .collect();
+        let results = results.into_iter();
+        let good = Vec::from_iter(results.flat_map(|one| one.inspect_err(tell)));
         let bad = total - good.len();
         match bad {
             0 => Ok(good),

@@ -42,9 +42,7 @@ pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
         let before = paths.len();
         for path in glob::glob(pattern).map_err(|why| Error::new(why).at(pattern))? {
             let path = path.map_err(Error::new)?;
-            if path.is_file() {
-                paths.push(path);
-            }
+            paths.extend(path.is_file().then_some(path));
         }
         if paths.len() == before {
             return Err(Error::new(format!(
@@ -57,7 +55,6 @@ pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
     Ok(paths)
 }
 
-/// True if a file is a recording of ROS 2, by its name.
 pub fn is_mcap(path: &Path) -> bool {
     let extension = path.extension();
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))

@@ -15,8 +15,7 @@ const ENDED: u8 = 130;
 
 fn main() -> ExitCode {
     let arguments = CommandLine::parse();
-    let runtime = Builder::new_multi_thread().enable_all().build();
-    let runtime = match runtime {
+    let runtime = match Builder::new_multi_thread().enable_all().build() {
         Ok(runtime) => runtime,
         Err(why) => return failed(&why.to_string()),
     };

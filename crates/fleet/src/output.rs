@@ -20,10 +20,8 @@ pub struct Unfinished {
 impl Unfinished {
     /// Chooses a name in the same folder, so that what is there can be renamed.
     pub fn beside(name: &Path) -> Result<Unfinished, Error> {
-        let file = name
-            .file_name()
-            .filter(|_| !name.is_dir())
-            .ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
+        let file = name.file_name().filter(|_| !name.is_dir());
+        let file = file.ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
         let is_lost = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.is_dir();
         if let Some(folder) = name.parent().filter(is_lost) {
             return Err(Error::new("the folder does not exist").at(folder.display()));
@@ -37,7 +35,6 @@ impl Unfinished {
         })
     }
 
-    /// Returns where to write.
     pub fn path(&self) -> &Path {
         &self.part
     }
@@ -67,7 +64,6 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// Creates a folder in another one.
     pub fn within(parent: &Path) -> Result<Scratch, Error> {
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
         let folder = parent.join(format!("dalembert-fleet.{}.{number}", process::id()));
@@ -75,7 +71,6 @@ impl Scratch {
         Ok(Scratch { folder })
     }
 
-    /// Returns the path of a file in it.
     pub fn file(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }

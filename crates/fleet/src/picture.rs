@@ -19,7 +19,6 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// Returns the curves of a log of so many rows.
     pub fn new(name: &str, joints: usize, rows: u64) -> Curves {
         Curves {
             name: name.to_owned(),
@@ -80,11 +79,8 @@ pub fn picture(logs: &[&Curves]) -> String {
 }
 
 fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
-    let filled: Vec<_> = ranges
-        .iter()
-        .enumerate()
-        .filter(|(_, [least, most])| least <= most)
-        .collect();
+    let columns = ranges.iter().enumerate();
+    let filled = Vec::from_iter(columns.filter(|(_, [least, most])| least <= most));
     let sizes = filled.iter().map(|(_, [least, most])| most.max(-least));
     let largest = sizes.fold(0.0, f64::max);
     let middle = y + 0.5 * HEIGHT;

@@ -53,7 +53,6 @@ impl Going {
         result.map_err(Error::new)?
     }
 
-    /// Returns an error if it was ended.
     pub fn check(&self) -> Result<(), Error> {
         match *self.0.borrow() {
             true => Err(Error::new(INTERRUPTED)),
@@ -82,12 +81,10 @@ impl Progress {
         }
     }
 
-    /// Adds states that are done.
     pub fn add(&self, states: u64) {
         self.done.fetch_add(states, Ordering::Relaxed);
     }
 
-    /// Adds states that are to do.
     pub fn expect(&self, states: u64) {
         self.start.get_or_init(Instant::now);
         self.total.fetch_add(states, Ordering::Relaxed);

@@ -4,16 +4,15 @@ use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::Setup;
 use dalembert_model::equations::chain::{Chain, Displacement, MomentBody, Regrouping, Skeleton};
 use dalembert_model::equations::{Arm, JointPosition};
-use dalembert_model::number::{Angle, Rational, Wide};
+use dalembert_model::number::{Angle, Exact, Rational, Wide};
 use dalembert_model::robot::{Joint, JointKind, Robot};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
-use crate::entries::Coefficients;
 use crate::error;
 use crate::naming::SymbolTable;
 use crate::number::{Constants, Number};
 use crate::ring::{MAX_JOINTS, MAX_POWER, Polynomial, Symbols};
-use crate::symbol::{Definition, Symbol};
+use crate::symbol::Symbol;
 
 /// The variable of a joint: θ_i of one that turns, d_i of one that slides.
 #[derive(Clone, Debug)]
@@ -29,12 +28,10 @@ pub struct Variable {
 impl Variable {
     /// The symbol of a slide: d_i, or q_i where nothing is added to that.
     pub(crate) fn slide_symbol(&self) -> Symbol {
-        let letter = if self.offset == Offset::None {
-            "q"
-        } else {
-            "d"
-        };
-        Symbol::indexed(letter, self.joint + 1)
+        match self.offset {
+            Offset::None => Symbol::indexed("q", self.joint + 1),
+            _ => Symbol::indexed("d", self.joint + 1),
+        }
     }
 }
 
@@ -50,9 +47,8 @@ pub enum Offset {
 }
 
 /// The numbers of the robot file that are symbols.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Symbolic {
-    /// None of them.
     Nothing,
     /// Lengths, gravity, masses, centres of mass, inertias.
     Everything,
@@ -69,12 +65,7 @@ pub struct SymbolicArm {
     pub position: Vec<JointPosition<Polynomial>>,
     /// The joints that stay where a lock says and are merged into the link before.
     pub locks: Vec<Option<JointPosition<Polynomial>>>,
-    /// The symbols of lengths and of gravity.
-    pub lengths: Vec<Definition<Number>>,
-    /// The symbols of masses and inertias.
-    pub parameters: Vec<Definition<Number>>,
-    /// True if centres of mass are numbers, since there were too many symbols.
-    pub has_numeric_centres: bool,
+    pub symbols: SymbolTable,
 }
 
 impl SymbolicArm {
@@ -86,102 +77,73 @@ impl SymbolicArm {
         let robot = setup.robot();
         check(robot)?;
         let mut constants = Constants::new();
-        let mut arm = setup.arm(|x| Polynomial::constant(constants.number(x)));
-        let following = setup.following(|x| Polynomial::constant(constants.number(x)));
-        let locks = setup
-            .merged()
-            .into_iter()
-            .map(|lock| lock.map(|at| fixed(&at, &mut constants)))
-            .collect();
+        let mut constant = |x: &Exact| Polynomial::constant(constants.number(x));
+        let mut arm = setup.arm(&mut constant);
+        let mut locks = Vec::new();
+        for lock in setup.merged() {
+            locks.push(lock.map(|lock| mapped(&lock, &mut constant)));
+        }
         let mut position: Vec<Option<JointPosition<Polynomial>>> = vec![None; arm.links.len()];
         let mut variables = Vec::new();
-        for (joint, row) in (0..robot.joints.len()).map(|joint| (joint, robot.row_of(joint))) {
+        for (joint, line) in robot.joints.iter().enumerate() {
+            let row = robot.row_of(joint);
             if let Some(lock) = setup.lock(joint) {
-                position[row] = Some(fixed(lock, &mut constants));
+                position[row] = Some(mapped(lock, &mut constant));
                 continue;
             }
-            let is_followed = following.iter().any(|follower| follower.leader == row);
-            let offset = match is_followed {
-                true => Offset::None,
-                false => take_offset(&mut arm, row, &robot.joints[joint]),
-            };
-            let kind = robot.joints[joint].kind;
             variables.push(Variable {
                 joint,
-                kind,
-                offset,
+                kind: line.kind,
+                offset: take_offset(&mut arm, row, line),
             });
-            position[row] = Some(match kind {
+            position[row] = Some(match line.kind {
                 JointKind::Revolute => JointPosition::Revolute(Polynomial::turn(joint)),
                 JointKind::Prismatic => JointPosition::Prismatic(Polynomial::slide(joint)),
             });
         }
-        for follower in &following {
+        for follower in &arm.following {
             let leader = position[follower.leader].as_ref();
             position[follower.row] = leader.map(|leader| leader.followed_by(follower));
         }
         if !constants.fits {
             return Err(error::unfit());
         }
-        let mut symbolic_arm = SymbolicArm {
+        let symbols = match symbolic {
+            Symbolic::Nothing => SymbolTable::default(),
+            Symbolic::Everything => SymbolTable::new(&mut arm)?,
+        };
+        Ok(SymbolicArm {
             arm,
             variables,
             position: position.into_iter().flatten().collect(),
             locks,
-            lengths: Vec::new(),
-            parameters: Vec::new(),
-            has_numeric_centres: false,
-        };
-        if symbolic == Symbolic::Everything {
-            let naming = SymbolTable::new(&mut symbolic_arm.arm)?;
-            symbolic_arm.has_numeric_centres = naming.has_numeric_centres;
-            symbolic_arm.lengths = naming.lengths;
-            symbolic_arm.parameters = naming.parameters;
-        }
-        Ok(symbolic_arm)
+            symbols,
+        })
     }
 
-    /// Returns the chain of an arm with this one's locks and position.
     pub fn chain(&self, arm: &Arm<Polynomial>) -> PosedChain<Polynomial> {
         posed(arm, &self.locks, &self.position)
     }
 
-    /// Computes the coefficients of a chain with the frames of a posed one.
-    ///
-    /// # Errors
-    /// One has too many terms.
-    pub fn coefficients(
-        &self,
-        setup: &Setup,
-        posed: &PosedChain<Polynomial>,
-        chain: &Chain<Polynomial>,
-    ) -> Result<Coefficients<Polynomial>, Diagnostic> {
-        let following = &self.arm.following;
-        Coefficients::new(setup, following, posed, chain, Polynomial::is_lost)
-            .ok_or_else(error::large)
-    }
-
     /// Returns the value of a polynomial without motion, whose parameters are the file's.
     pub fn evaluate(&self, polynomial: &Polynomial) -> Number {
-        let values = self.parameters.iter().map(|parameter| parameter.value);
-        self.evaluate_with(polynomial, &values.collect::<Vec<_>>())
-    }
-
-    /// Returns the value of a polynomial without motion, whose parameters have these values.
-    pub fn evaluate_with(&self, polynomial: &Polynomial, parameters: &[Number]) -> Number {
         let terms = polynomial.terms().iter();
         terms.fold(Number::zero(), |sum, (monomial, x)| {
-            let value = self.value_of(monomial.symbols, parameters);
-            sum.add(&value.mul(x))
+            sum.add(&self.value(monomial.symbols).mul(x))
         })
     }
 
-    /// Returns the value of a product of symbols, whose parameters have these values.
-    pub fn value_of(&self, symbols: Symbols, parameters: &[Number]) -> Number {
-        let parameter = symbols.parameter_index().map(|index| parameters[index]);
-        let start = parameter.unwrap_or_else(Number::one);
+    /// Returns the value of a product of symbols, whose parameter is the file's.
+    pub fn value(&self, symbols: Symbols) -> Number {
+        self.value_of(symbols, |index| self.symbols.parameters[index].value)
+    }
+
+    /// Returns the value of a product of symbols, whose parameter has this value.
+    pub fn value_of(&self, symbols: Symbols, parameter: impl Fn(usize) -> Number) -> Number {
+        let index = symbols.parameter_index();
+        let start = index.map_or_else(Number::one, parameter);
         symbols.lengths().fold(start, |product, (index, power)| {
-            let value = &self.lengths[index].value;
+            let value = &self.symbols.lengths[index].value;
             (0..power).fold(product, |product, _| product.mul(value))
         })
     }
@@ -190,11 +152,10 @@ impl SymbolicArm {
 /// A chain at a position.
 #[derive(Clone, Debug)]
 pub struct PosedChain<S> {
-    /// The chain, regrouped.
+    /// Regrouped.
     pub chain: Chain<S>,
     /// A chain with these frames whose links keep all of their bodies.
     pub whole: Chain<S>,
-    /// The positions of its joints.
     pub at: Vec<Displacement<S>>,
     /// The row of each link.
     pub rows: Vec<usize>,
@@ -209,13 +170,11 @@ pub fn posed<S: Scalar>(
     let skeleton = Skeleton::new(arm, locks);
     let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
     let rows: Vec<usize> = skeleton.links.iter().map(|segment| segment.joint).collect();
-    let at = rows
-        .iter()
-        .zip(&chain.links)
-        .map(|(&row, link)| match &position[row] {
-            JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
-            JointPosition::Prismatic(q) => Displacement::Slide(q.clone()),
-        });
+    let links = rows.iter().zip(&chain.links);
+    let at = links.map(|(&row, link)| match &position[row] {
+        JointPosition::Revolute(pair) => Displacement::Turn(pair.compose(&link.theta)),
+        JointPosition::Prismatic(q) => Displacement::Slide(q.clone()),
+    });
     PosedChain {
         at: at.collect(),
         whole: unmoved(&skeleton),
@@ -250,13 +209,12 @@ fn check(robot: &Robot) -> Result<(), Diagnostic> {
         return Err(error::many_joints(joints));
     }
     for joint in 0..joints {
-        let followers = robot
-            .followers
-            .iter()
-            .filter(|follower| follower.leader == joint);
-        let turns: u32 = followers
-            .map(|follower| follower.turns().unsigned_abs())
-            .sum();
+        let mut turns = 0;
+        for follower in &robot.followers {
+            if follower.leader == joint {
+                turns += follower.turns().unsigned_abs();
+            }
+        }
         if 2 * (1 + turns as usize) > MAX_POWER {
             return Err(error::far_follower(joint));
         }
@@ -264,24 +222,21 @@ fn check(robot: &Robot) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-fn fixed(
-    at: &JointPosition<dalembert_model::number::Exact>,
-    constants: &mut Constants,
-) -> JointPosition<Polynomial> {
+/// Returns a position with its numbers through `change`.
+pub fn mapped<S, T>(at: &JointPosition<S>, mut change: impl FnMut(&S) -> T) -> JointPosition<T> {
     match at {
-        JointPosition::Revolute(pair) => {
-            JointPosition::Revolute(pair.map(|x| Polynomial::constant(constants.number(x))))
-        }
-        JointPosition::Prismatic(q) => {
-            JointPosition::Prismatic(Polynomial::constant(constants.number(q)))
-        }
+        JointPosition::Revolute(pair) => JointPosition::Revolute(pair.map(change)),
+        JointPosition::Prismatic(q) => JointPosition::Prismatic(change(q)),
     }
 }
 
-/// Moves the constant part of a joint's θ or d into its variable. Of a joint that is placed, a turn
-/// by right angles stays: it makes no terms, and the variable is q_i.
+/// Moves the constant part of a joint's θ or d into its variable; none of a joint that others follow.
+/// Of a joint that is placed, a turn by right angles stays: it makes no terms, and the variable is q_i.
 fn take_offset(arm: &mut Arm<Polynomial>, row: usize, joint: &Joint) -> Offset {
     let link = &mut arm.links[row];
+    if arm.following.iter().any(|follower| follower.leader == row) {
+        return Offset::None;
+    }
     if joint.kind == JointKind::Prismatic {
         // A row's d has the number of its row, a slide that of its coordinate.
         if link.place.is_some() || link.d.is_zero() || !arm.following.is_empty() {

@@ -23,11 +23,9 @@ pub type BaseMoments = Vec<(usize, usize)>;
 
 /// A chain whose bodies are symbols.
 pub struct BaseBodies {
-    /// The chain.
     pub chain: Chain<Polynomial>,
     /// The symbols, each with its value as a polynomial in the file's numbers.
     pub parameters: Vec<Definition<Polynomial>>,
-    /// Their values.
     pub values: Vec<Number>,
     /// The moments that they are; none of an armature.
     pub moments: BaseMoments,
@@ -55,19 +53,11 @@ pub fn body_of<S: Scalar>(kind: JointKind, moments: [S; MOMENTS.len()]) -> Momen
 
 /// Returns the moments of a body in the order of [`MOMENTS`].
 pub fn moments_of<S: Scalar>(body: &MomentBody<S>) -> [S; MOMENTS.len()] {
-    let tensor = body.tensor();
-    let [x, y, z] = body.first.clone();
-    [
-        body.mass.clone(),
-        x,
-        y,
-        z,
-        tensor.xx,
-        tensor.zz,
-        tensor.xy,
-        tensor.xz,
-        tensor.yz,
-    ]
+    let Inertia {
+        xx, zz, xy, xz, yz, ..
+    } = body.tensor();
+    let (m, [x, y, z]) = (body.mass.clone(), body.first.clone());
+    [m, x, y, z, xx, zz, xy, xz, yz]
 }
 
 fn is_kept(kind: JointKind, moment: usize) -> bool {

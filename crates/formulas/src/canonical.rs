@@ -13,9 +13,12 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use dalembert_codegen::workspace::Setup;
+use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
+use crate::arm::{PosedChain, SymbolicArm, Variable};
 use crate::number::Number;
 use crate::ring::{Monomial, Polynomial, Symbols, part, powers};
 use crate::symbol::Symbol;
@@ -55,6 +58,43 @@ pub struct Runs {
     pub slides: Vec<usize>,
     /// Their symbols: d of one with an offset, else q.
     pub slide_symbols: Vec<Symbol>,
+}
+
+/// Finds the joints that turn about parallel axes, one carried by the other.
+pub fn runs(setup: &Setup, arm: &SymbolicArm, chain: &PosedChain<Polynomial>) -> Runs {
+    let robot = setup.robot();
+    let is_free = |joint: usize| arm.variables.iter().any(|variable| variable.joint == joint);
+    let mut runs: Vec<Vec<usize>> = Vec::new();
+    let mut run_of_link: Vec<Option<usize>> = Vec::new();
+    for (link, row) in chain.chain.links.iter().zip(&chain.rows) {
+        let before = link.parent.and_then(|parent| run_of_link[parent]);
+        if link.kind == JointKind::Prismatic {
+            run_of_link.push(before);
+            continue;
+        }
+        let is_parallel = link.rotation[0][2].is_zero() && link.rotation[1][2].is_zero();
+        let run = before.filter(|_| is_parallel).unwrap_or(runs.len());
+        if run == runs.len() {
+            runs.push(Vec::new());
+        }
+        run_of_link.push(Some(run));
+        let joint = robot.mover_of(*row);
+        let is_new = runs.iter().all(|run| !run.contains(&joint));
+        if is_new && is_free(joint) {
+            runs[run].push(joint);
+        }
+    }
+    for run in &mut runs {
+        run.sort_unstable();
+    }
+    runs.retain(|run| !run.is_empty());
+    let is_slide = |variable: &&Variable| variable.kind == JointKind::Prismatic;
+    let slides = arm.variables.iter().filter(is_slide);
+    Runs {
+        runs,
+        slide_symbols: slides.clone().map(Variable::slide_symbol).collect(),
+        slides: slides.map(|variable| variable.joint).collect(),
+    }
 }
 
 /// A product of waves, one of each run, with its coefficient.
@@ -99,6 +139,7 @@ impl Wave {
         let u: Vec<i32> = f.iter().map(|x| x.signum()).collect();
         let v: Vec<i32> = f.iter().zip(&u).map(|(f, u)| f - u).collect();
         let w: Vec<i32> = u.iter().zip(&v).map(|(u, v)| u - v).collect();
+        let (is_sine, rest) = (self.is_sine, if self.is_sine { 1.0 } else { -1.0 });
         let product = |factor: f64, parts: &[(bool, &Vec<i32>)]| {
             let mut factor = factor;
             let mut waves = Vec::new();
@@ -112,37 +153,19 @@ impl Wave {
             waves.sort();
             (factor, waves)
         };
-        let sum = |terms: Vec<(f64, Vec<Wave>)>| -> Alternative {
-            terms
-                .into_iter()
-                .filter(|(factor, _)| *factor != 0.0)
-                .collect()
+        let split = |factor: f64, of_u: bool, of_v: bool, of_w: f64| {
+            let both = product(factor, &[(of_u, &u), (of_v, &v)]);
+            vec![both, product(of_w, &[(is_sine, &w)])]
         };
-        let whole = sum(vec![product(1.0, &[(self.is_sine, f)])]);
-        match self.is_sine {
-            false => [
-                sum(vec![
-                    product(-2.0, &[(true, &u), (true, &v)]),
-                    product(1.0, &[(false, &w)]),
-                ]),
-                whole,
-                sum(vec![
-                    product(2.0, &[(false, &u), (false, &v)]),
-                    product(-1.0, &[(false, &w)]),
-                ]),
-            ],
-            true => [
-                sum(vec![
-                    product(2.0, &[(true, &u), (false, &v)]),
-                    product(-1.0, &[(true, &w)]),
-                ]),
-                whole,
-                sum(vec![
-                    product(2.0, &[(false, &u), (true, &v)]),
-                    product(1.0, &[(true, &w)]),
-                ]),
-            ],
+        let mut alternatives = [
+            split(2.0 * rest, true, !is_sine, -rest),
+            vec![product(1.0, &[(is_sine, f)])],
+            split(2.0, false, is_sine, rest),
+        ];
+        for terms in &mut alternatives {
+            terms.retain(|(factor, _)| *factor != 0.0);
         }
+        alternatives
     }
 }
 
@@ -151,24 +174,11 @@ impl Runs {
     fn products(&self, polynomial: &Polynomial, memory: &mut Memory) -> Products {
         let mut products = Products::new();
         for (Monomial { symbols, motion }, x) in polynomial.terms() {
-            let slides: Vec<usize> = self
-                .slides
-                .iter()
-                .map(|&joint| powers(*motion, joint)[0])
-                .collect();
-            let mut partial: Vec<(f64, Vec<Wave>)> = vec![(1.0, Vec::new())];
+            let slides = self.slides.iter().map(|&joint| powers(*motion, joint)[0]);
+            let slides: Vec<usize> = slides.collect();
+            let mut partial = vec![(1.0, Vec::new())];
             for run in &self.runs {
-                let waves = memory.of_run(run, *motion);
-                partial = partial
-                    .iter()
-                    .flat_map(|(factor, before)| {
-                        waves.iter().map(move |(y, wave)| {
-                            let mut after = before.clone();
-                            after.push(wave.clone());
-                            (factor * y, after)
-                        })
-                    })
-                    .collect();
+                partial = lengthened(&partial, &memory.of_run(run, *motion));
             }
             for (factor, waves) in partial {
                 let form = products.entry((slides.clone(), waves)).or_default();
@@ -180,12 +190,32 @@ impl Runs {
     }
 }
 
-fn add(form: &mut Form, symbols: Symbols, x: Number) {
-    let sum = form.get(&symbols).map_or(x, |old| old.add(&x));
+/// Adds a number to that of a key; zeros are left out.
+pub(crate) fn add<K: Ord>(numbers: &mut BTreeMap<K, Number>, key: K, x: Number) {
+    let sum = numbers.get(&key).map_or(x, |old| old.add(&x));
     match sum.is_zero() {
-        true => form.remove(&symbols),
-        false => form.insert(symbols, sum),
+        true => numbers.remove(&key),
+        false => numbers.insert(key, sum),
     };
+}
+
+/// Multiplies each product by each factor, which stands at its end.
+fn lengthened<W: Clone>(products: &[(f64, Vec<W>)], factors: &[(f64, W)]) -> Vec<(f64, Vec<W>)> {
+    let mut longer = Vec::with_capacity(products.len() * factors.len());
+    for (x, before) in products {
+        for (y, factor) in factors {
+            let mut after = before.clone();
+            after.push(factor.clone());
+            longer.push((x * y, after));
+        }
+    }
+    longer
+}
+
+/// Lists the waves of a product with a multiple angle, each with its run.
+fn multiples(waves: &[Wave]) -> impl Iterator<Item = (usize, Wave)> {
+    let waves = waves.iter().cloned().enumerate();
+    waves.filter(|(_, wave)| wave.is_multiple())
 }
 
 /// The waves of each product of powers that occurred, by the bits of a run's joints.
@@ -194,9 +224,7 @@ struct Memory(HashMap<(usize, u128), Vec<(f64, Wave)>>);
 
 impl Memory {
     fn of_run(&mut self, run: &[usize], motion: u128) -> Vec<(f64, Wave)> {
-        let bits = run
-            .iter()
-            .fold(0, |bits, &joint| bits | part(motion, joint));
+        let bits = run.iter().map(|&joint| part(motion, joint)).sum();
         let known = self.0.entry((run[0], bits));
         known.or_insert_with(|| waves_of(run, motion)).clone()
     }
@@ -244,8 +272,10 @@ fn times(sum: &BTreeMap<Wave, f64>, place: usize, is_sine: bool) -> BTreeMap<Wav
 /// Entries as products of waves, and how each multiple angle is split in all of them.
 pub struct Splits {
     entries: Vec<Products>,
-    choices: BTreeMap<(usize, Wave), usize>,
+    choices: Choices,
 }
+
+type Choices = BTreeMap<(usize, Wave), usize>;
 
 /// Above so many products no search is made: entries of such arms are printed by rows.
 const MOST_PRODUCTS: usize = 60_000;
@@ -255,23 +285,13 @@ impl Splits {
     /// Writes entries by the choice of splits that the search starts from.
     pub fn start(runs: &Runs, entries: &[Polynomial]) -> Splits {
         let mut memory = Memory::default();
-        let entries = entries
-            .iter()
-            .map(|entry| runs.products(entry, &mut memory));
-        let mut splits = Splits {
-            entries: entries.collect(),
-            choices: BTreeMap::new(),
-        };
-        for (_, waves) in splits.entries.iter().flat_map(BTreeMap::keys) {
-            for (run, wave) in waves
-                .iter()
-                .enumerate()
-                .filter(|(_, wave)| wave.is_multiple())
-            {
-                splits.choices.insert((run, wave.clone()), 0);
-            }
+        let products = |entry| runs.products(entry, &mut memory);
+        let entries: Vec<Products> = entries.iter().map(products).collect();
+        let mut choices = Choices::new();
+        for (_, waves) in entries.iter().flat_map(BTreeMap::keys) {
+            choices.extend(multiples(waves).map(|multiple| (multiple, 0)));
         }
-        splits
+        Splits { entries, choices }
     }
 
     /// Writes entries by one choice of splits, which leaves few terms.
@@ -282,10 +302,11 @@ impl Splits {
             let mut descent = Descent::new(&splits);
             let waves: Vec<(usize, Wave)> = splits.choices.keys().cloned().collect();
             for _ in 0..SWEEPS {
-                let improved = waves
-                    .iter()
-                    .filter(|wave| descent.improve(&mut splits.choices, wave));
-                if improved.count() == 0 {
+                let mut is_better = false;
+                for wave in &waves {
+                    is_better |= descent.improve(&mut splits.choices, wave);
+                }
+                if !is_better {
                     break;
                 }
             }
@@ -300,14 +321,12 @@ impl Splits {
             for (factor, waves) in expanded(&self.choices, waves) {
                 let degree =
                     slides.iter().sum::<usize>() + waves.iter().map(Vec::len).sum::<usize>();
-                let slides = slides.clone();
-                let sum = terms
-                    .entry(Shape {
-                        degree,
-                        slides,
-                        waves,
-                    })
-                    .or_default();
+                let shape = Shape {
+                    degree,
+                    slides: slides.clone(),
+                    waves,
+                };
+                let sum = terms.entry(shape).or_default();
                 let factor = Number::of_dyadic(factor);
                 for (symbols, x) in form {
                     add(sum, *symbols, x.mul(&factor));
@@ -320,26 +339,15 @@ impl Splits {
 }
 
 /// Lists the products that a product of waves becomes.
-fn expanded(
-    choices: &BTreeMap<(usize, Wave), usize>,
-    waves: &[Wave],
-) -> Vec<(f64, Vec<Vec<Wave>>)> {
-    let mut partial: Vec<(f64, Vec<Vec<Wave>>)> = vec![(1.0, Vec::new())];
+fn expanded(choices: &Choices, waves: &[Wave]) -> Vec<(f64, Vec<Vec<Wave>>)> {
+    let mut partial = vec![(1.0, Vec::new())];
     for (run, wave) in waves.iter().enumerate() {
         let alternative: Alternative = match choices.get(&(run, wave.clone())) {
             Some(&choice) => wave.alternatives()[choice].clone(),
             None if wave.is_none() => vec![(1.0, Vec::new())],
             None => vec![(1.0, vec![wave.clone()])],
         };
-        let mut next = Vec::with_capacity(partial.len() * alternative.len());
-        for (factor, before) in &partial {
-            for (x, waves) in &alternative {
-                let mut after = before.clone();
-                after.push(waves.clone());
-                next.push((factor * x, after));
-            }
-        }
-        partial = next;
+        partial = lengthened(&partial, &alternative);
     }
     partial
 }
@@ -349,6 +357,7 @@ type Place = (usize, Vec<usize>, Vec<Vec<Wave>>);
 
 /// The terms of all entries under the choices so far. A coefficient is a residue here, with a random
 /// one for each symbol: only the number of terms matters.
+#[derive(Default)]
 struct Descent {
     /// Each product: its entry, slides, waves and coefficient.
     products: Vec<(usize, Vec<usize>, Vec<Wave>, Field)>,
@@ -362,12 +371,7 @@ impl Descent {
     fn new(splits: &Splits) -> Descent {
         let mut points = Points::new(0x7370_6c69);
         let mut weights: BTreeMap<Symbols, Field> = BTreeMap::new();
-        let mut descent = Descent {
-            products: Vec::new(),
-            with: HashMap::new(),
-            sums: HashMap::new(),
-            terms: 0,
-        };
+        let mut descent = Descent::default();
         for (entry, products) in splits.entries.iter().enumerate() {
             for ((slides, waves), form) in products {
                 let weighed = form.iter().map(|(symbols, x)| {
@@ -376,16 +380,8 @@ impl Descent {
                 });
                 let residue = weighed.fold(Field::ZERO, |sum, x| sum.add(&x));
                 let place = descent.products.len();
-                for (run, wave) in waves
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, wave)| wave.is_multiple())
-                {
-                    descent
-                        .with
-                        .entry((run, wave.clone()))
-                        .or_default()
-                        .push(place);
+                for multiple in multiples(waves) {
+                    descent.with.entry(multiple).or_default().push(place);
                 }
                 let product = (entry, slides.clone(), waves.clone(), residue);
                 descent.products.push(product);
@@ -396,12 +392,11 @@ impl Descent {
     }
 
     /// Adds what a product becomes, or takes it away.
-    fn enter(&mut self, choices: &BTreeMap<(usize, Wave), usize>, product: usize, removes: bool) {
+    fn enter(&mut self, choices: &Choices, product: usize, removes: bool) {
         let (entry, slides, waves, residue) = self.products[product].clone();
+        let sign = if removes { -1.0 } else { 1.0 };
         for (factor, waves) in expanded(choices, &waves) {
-            let factor = Number::of_dyadic(factor).residue();
-            let x = residue.mul(&factor);
-            let x = if removes { x.neg() } else { x };
+            let x = residue.mul(&Number::of_dyadic(sign * factor).residue());
             let place = self.sums.entry((entry, slides.clone(), waves));
             let sum = place.or_insert(Field::ZERO);
             let was = *sum != Field::ZERO;
@@ -414,12 +409,7 @@ impl Descent {
         }
     }
 
-    fn set(
-        &mut self,
-        choices: &mut BTreeMap<(usize, Wave), usize>,
-        wave: &(usize, Wave),
-        choice: usize,
-    ) {
+    fn set(&mut self, choices: &mut Choices, wave: &(usize, Wave), choice: usize) {
         let products = self.with.get(wave).cloned().unwrap_or_default();
         for &product in &products {
             self.enter(choices, product, true);
@@ -432,11 +422,7 @@ impl Descent {
 
     /// Takes the split of one angle that leaves the fewest terms, the first of equals: returns true if
     /// that is another than before.
-    fn improve(
-        &mut self,
-        choices: &mut BTreeMap<(usize, Wave), usize>,
-        wave: &(usize, Wave),
-    ) -> bool {
+    fn improve(&mut self, choices: &mut Choices, wave: &(usize, Wave)) -> bool {
         let before = choices.get(wave).copied().unwrap_or(0);
         let (mut best, mut fewest) = (before, self.terms);
         let order = if wave.1.is_sine { [0, 1, 2] } else { [1, 0, 2] };

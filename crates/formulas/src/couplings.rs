@@ -29,15 +29,14 @@ use dalembert_model::scalar::Scalar;
 
 use crate::arm::{PosedChain, Symbolic, SymbolicArm};
 use crate::bodies::{BaseBodies, BaseMoments};
-use crate::canonical::Splits;
+use crate::canonical::{Splits, runs};
 use crate::entries::Coefficients;
 use crate::expression::{Sum, with_numbers};
 use crate::legend::Frames;
-use crate::lists::coefficients_of;
+use crate::line::coefficients_of;
 use crate::number::Number;
 use crate::quantity::Quantity;
 use crate::ring::Polynomial;
-use crate::runs::runs;
 use crate::symbol::Symbol;
 use conditions::{Condition, bodies_that_meet, conditions, in_words};
 use facts::{Fact, is_zero};
@@ -144,10 +143,8 @@ impl Couplings {
     pub fn reasons(&self) -> Vec<(&Reason, Vec<&Entry>)> {
         let mut groups: Vec<(&Reason, Vec<&Entry>)> = Vec::new();
         for zero in &self.zeros {
-            match groups
-                .iter_mut()
-                .find(|(reason, _)| **reason == zero.reason)
-            {
+            let mut known = groups.iter_mut();
+            match known.find(|(reason, _)| **reason == zero.reason) {
                 Some((_, entries)) => entries.push(&zero.entry),
                 None => groups.push((&zero.reason, vec![&zero.entry])),
             }
@@ -264,25 +261,20 @@ impl<'a> Finder<'a> {
     fn couplings(mut self) -> Result<Couplings, Diagnostic> {
         let in_numbers = self.in_numbers.clone();
         let in_parameters = self.in_parameters.clone();
-        let rotation = self.arm.chain(&Part::Rotation.of(&self.arm.arm));
-        let rotation = self
-            .arm
-            .coefficients(self.setup, &rotation, &rotation.chain)?;
-        let rotations = entries(&rotation);
-        let symbolic = entries(&in_parameters);
+        let chain = self.arm.chain(&Part::Rotation.of(&self.arm.arm));
+        let rotation = self.arm.coefficients(self.setup, &chain, &chain.chain)?;
+        let parts = entries(&in_parameters).into_iter().zip(entries(&rotation));
         let numeric_entries = entries(&in_numbers);
         let total = numeric_entries.len();
         let mut zeros = Vec::new();
-        for (place, (entry, _)) in numeric_entries
-            .into_iter()
-            .enumerate()
-            .filter(|(_, (_, x))| x.is_zero())
-        {
-            let (_, part) = rotations[place];
+        for ((entry, x), ((_, symbolic), (_, part))) in numeric_entries.into_iter().zip(parts) {
+            if !x.is_zero() {
+                continue;
+            }
             let is_split = entry.quantity != Quantity::Gravity && !part.is_zero();
             zeros.push(ZeroEntry {
                 rotation: is_split.then(|| self.written(part)),
-                reason: self.reason(&entry, symbolic[place].1),
+                reason: self.reason(&entry, symbolic),
                 entry,
             });
         }
@@ -318,17 +310,10 @@ impl<'a> Finder<'a> {
         let facts = self.facts.clone();
         if self.zeros(&facts).contains(entry) {
             let kept = fewest(&facts, |facts| self.zeros(facts).contains(entry));
-            let has_others = facts.iter().any(|fact| {
-                let rest: Vec<Fact> = facts
-                    .iter()
-                    .copied()
-                    .filter(|other| other != fact)
-                    .collect();
-                kept.contains(fact) && self.zeros(&rest).contains(entry)
-            });
+            let mut others = kept.iter().map(|fact| without(&facts, fact));
             return Reason::Geometry {
+                has_others: others.any(|rest| self.zeros(&rest).contains(entry)),
                 facts: self.describe(&kept),
-                has_others,
             };
         }
         if symbolic.is_zero() {
@@ -347,11 +332,8 @@ impl<'a> Finder<'a> {
 
     fn describe(&self, facts: &[Fact]) -> Vec<String> {
         // Those that say most first.
-        facts
-            .iter()
-            .rev()
-            .map(|fact| self.geometry.describe(*fact))
-            .collect()
+        let describe = |fact: &Fact| self.geometry.describe(*fact);
+        facts.iter().rev().map(describe).collect()
     }
 
     fn slides(&self, place: usize) -> bool {
@@ -375,24 +357,24 @@ impl<'a> Finder<'a> {
     /// Returns the entries that are zero for all arms with these facts.
     fn zeros(&mut self, facts: &[Fact]) -> &BTreeSet<Entry> {
         if !self.zeros.contains_key(facts) {
-            let of_seed = |seed: u64| -> BTreeSet<Entry> {
-                let coefficients = self.geometry.coefficients(World {
-                    facts,
-                    keeps_numbers: false,
-                    bodies: None,
-                    seed,
-                });
-                let field_entries = coefficients.iter().flat_map(entries);
-                field_entries
-                    .filter(|(_, x)| is_zero(x))
-                    .map(|(entry, _)| entry)
-                    .collect()
+            let of_seed = |seed: u64| World {
+                facts,
+                keeps_numbers: false,
+                bodies: None,
+                seed,
             };
-            let [first, second] = SEEDS.map(of_seed);
+            let [first, second] = SEEDS.map(|seed| self.zeros_in(of_seed(seed)));
             let both = first.intersection(&second).cloned().collect();
             self.zeros.insert(facts.to_vec(), both);
         }
         &self.zeros[facts]
+    }
+
+    fn zeros_in(&self, world: World<'_>) -> BTreeSet<Entry> {
+        let coefficients = self.geometry.coefficients(world);
+        let field_entries = coefficients.iter().flat_map(entries);
+        let zeros = field_entries.filter_map(|(entry, x)| is_zero(x).then_some(entry));
+        zeros.collect()
     }
 
     /// Finds the facts that conditions need; `None` if they hold with these lengths and angles alone.
@@ -400,14 +382,13 @@ impl<'a> Finder<'a> {
         let bodies = bodies_that_meet(conditions, &self.moments, &self.kinds, SEEDS[0]);
         let keeps_numbers = conditions.iter().any(|condition| condition.len() > 1);
         let holds = |facts: &[Fact]| {
-            let coefficients = self.geometry.coefficients(World {
+            let world = World {
                 facts,
                 keeps_numbers,
                 bodies: Some(&bodies),
                 seed: SEEDS[1],
-            });
-            let mut field_entries = coefficients.iter().flat_map(entries);
-            field_entries.any(|(other, x)| other == *entry && is_zero(x))
+            };
+            self.zeros_in(world).contains(entry)
         };
         holds(&self.facts).then(|| fewest(&self.facts, holds))
     }
@@ -416,11 +397,9 @@ impl<'a> Finder<'a> {
     /// vanish: masses of several links, or a mass and a moment of inertia, are in balance.
     fn is_balanced(&self, condition: &Condition) -> bool {
         let is_zero = |parameter: &usize| self.values[*parameter].is_zero();
-        let is_balance = |parameter: &usize| {
-            let definitions = self.definitions.as_ref();
-            definitions.is_some_and(|definitions| {
-                definitions.is_balance(*parameter, &self.values[*parameter])
-            })
+        let is_balance = |parameter: &usize| match &self.definitions {
+            Some(definitions) => definitions.is_balance(*parameter, &self.values[*parameter]),
+            None => false,
         };
         !condition.keys().all(is_zero) || condition.keys().any(is_balance)
     }
@@ -430,12 +409,17 @@ impl<'a> Finder<'a> {
 fn fewest(facts: &[Fact], mut holds: impl FnMut(&[Fact]) -> bool) -> Vec<Fact> {
     let mut kept = facts.to_vec();
     for fact in facts {
-        let rest: Vec<Fact> = kept.iter().copied().filter(|other| other != fact).collect();
+        let rest = without(&kept, fact);
         if holds(&rest) {
             kept = rest;
         }
     }
     kept
+}
+
+fn without(facts: &[Fact], fact: &Fact) -> Vec<Fact> {
+    let others = facts.iter().copied();
+    others.filter(|other| other != fact).collect()
 }
 
 #[cfg(test)]

@@ -4,9 +4,8 @@ mod latex;
 mod sympy;
 mod text;
 
-use dalembert_codegen::workspace::Word;
+use dalembert_codegen::words;
 use dalembert_model::number::parse::write_decimal;
-use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::JointKind;
 
 use crate::arm::{Offset, Variable};
@@ -18,30 +17,19 @@ use crate::write::{Digits, Format, Latex, Text};
 
 pub use text::escaped;
 
-/// The format of a document.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Layout {
-    /// Plain text with letters of Unicode.
-    #[default]
-    Text,
-    /// Markdown: tables of plain text, which read everywhere.
-    Markdown,
-    /// A LaTeX document.
-    Latex,
-    /// A Python module for SymPy.
-    Sympy,
-}
-
-impl Word for Layout {
-    const WHAT: &'static str = "format of formulas";
-
-    fn all() -> Vec<(&'static str, Layout)> {
-        vec![
-            ("text", Layout::Text),
-            ("markdown", Layout::Markdown),
-            ("latex", Layout::Latex),
-            ("sympy", Layout::Sympy),
-        ]
+words! {
+    /// The format of a document.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Layout: "format of formulas" {
+        /// Plain text with letters of Unicode.
+        #[default]
+        Text = "text",
+        /// Markdown: tables of plain text, which read everywhere.
+        Markdown = "markdown",
+        /// A LaTeX document.
+        Latex = "latex",
+        /// A Python module for SymPy.
+        Sympy = "sympy",
     }
 }
 
@@ -59,7 +47,10 @@ impl Formulas {
         let joins = self.joints < 10;
         match layout {
             Layout::Text => self.text(&Text { digits, joins }),
-            Layout::Markdown => self.markdown(&Text { digits, joins }),
+            Layout::Markdown => {
+                let title = escaped(&self.robot);
+                format!("# {title}\n\n{}", self.in_markdown(2, digits))
+            }
             Layout::Latex => self.latex(&Latex { digits, joins }),
             Layout::Sympy => self.sympy(),
         }
@@ -67,10 +58,8 @@ impl Formulas {
 
     /// Lists the entries by their identifiers, those that are zero too, as plain text.
     pub fn entries(&self, digits: Digits) -> Vec<(String, String)> {
-        let format = Text {
-            digits,
-            joins: self.joints < 10,
-        };
+        let joins = self.joints < 10;
+        let format = Text { digits, joins };
         let mut entries = Vec::new();
         for section in &self.sections {
             for line in &section.lines {
@@ -91,50 +80,41 @@ impl Formulas {
     pub fn symbols(&self) -> Vec<(String, Option<String>, f64)> {
         let legend = &self.legend;
         let of_file = legend.groups.iter().flat_map(|group| &group.entries);
-        let entries = legend
-            .constants
-            .iter()
-            .chain(&legend.parameters)
-            .chain(of_file);
-        entries
-            .map(|entry| {
-                let sum = (!entry.sum.is_empty()).then(|| written(&entry.sum));
-                (entry.symbol.code.clone(), sum, entry.value.to_f64())
-            })
-            .collect()
+        let defined = legend.constants.iter().chain(&legend.parameters);
+        let symbols = defined.chain(of_file).map(|entry| {
+            let sum = (!entry.sum.is_empty()).then(|| written(&entry.sum));
+            (entry.symbol.code.clone(), sum, entry.value.to_f64())
+        });
+        symbols.collect()
     }
 
     /// Lists the variables that are not q_i, each with its definition: `θ3` is `q3 + pi/2`.
     pub fn shifted_variables(&self) -> Vec<(String, String)> {
-        let lines = self.offsets("θ", |turn| signed(&turn.to_string()));
-        let pairs = lines.iter().filter_map(|line| line.split_once(" = "));
-        pairs
-            .map(|(name, sum)| (name.to_owned(), sum.to_owned()))
+        let offsets = self.offsets(|angle| angle).into_iter();
+        offsets
+            .map(|(letter, joint, shift)| (format!("{letter}{joint}"), format!("q{joint}{shift}")))
             .collect()
     }
 
-    /// Lists them as lines: `θ3 = q3 + pi/2`.
-    fn offsets(&self, turn: &str, angle: impl Fn(&Angle) -> String) -> Vec<String> {
-        let line = |variable: &Variable| {
-            let number = variable.joint + 1;
-            match &variable.offset {
-                Offset::None => None,
-                Offset::Angle(turn_by) => {
-                    Some(format!("{turn}{number} = q{number}{}", angle(turn_by)))
-                }
-                Offset::Length(shift) => Some(format!("d{number} = q{number}{}", plus(shift))),
-            }
+    /// Lists them by letter, joint, and what is added to q_i: `θ`, 3 and ` + pi/2`.
+    fn offsets(&self, angle: impl Fn(String) -> String) -> Vec<(&'static str, usize, String)> {
+        let offset = |variable: &Variable| {
+            let (letter, shift) = match &variable.offset {
+                Offset::None => return None,
+                Offset::Angle(turn) => ("θ", angle(turn.to_string())),
+                Offset::Length(x) => ("d", write_decimal(x).unwrap_or_else(|| x.to_string())),
+            };
+            Some((letter, variable.joint + 1, signed(&shift)))
         };
-        self.variables.iter().filter_map(line).collect()
+        self.variables.iter().filter_map(offset).collect()
     }
 
     /// The name of an angle: θ where one is not q.
     fn angle(&self) -> &'static str {
         let is_moved = |variable: &Variable| matches!(variable.offset, Offset::Angle(_));
-        if self.variables.iter().any(is_moved) {
-            "θ"
-        } else {
-            "q"
+        match self.variables.iter().any(is_moved) {
+            true => "θ",
+            false => "q",
         }
     }
 
@@ -142,15 +122,11 @@ impl Formulas {
     fn remarks(&self) -> Vec<String> {
         let mut remarks = Vec::new();
         if !self.results.iter().copied().eq(0..self.results.len()) {
-            let counted: Vec<String> = self
-                .results
-                .iter()
-                .enumerate()
-                .map(|(place, joint)| format!("{} is joint {}", place + 1, joint + 1))
-                .collect();
+            let results = self.results.iter().zip(1..);
+            let counted = results.map(|(joint, place)| format!("{place} is joint {}", joint + 1));
             remarks.push(format!(
                 "the indices of coefficients count the scene's results: {}",
-                counted.join(", ")
+                counted.collect::<Vec<_>>().join(", ")
             ));
         }
         if self.rows > self.joints {
@@ -168,24 +144,15 @@ impl Formulas {
         remarks
     }
 
-    /// True if a line has terms that are set off.
-    fn has_small_terms(&self) -> bool {
+    fn has_term(&self, is_such: impl Fn(&Term) -> bool) -> bool {
         let lines = self.sections.iter().flat_map(|section| &section.lines);
-        lines.flat_map(|line| &line.sum).any(|term| term.is_small)
-    }
-
-    /// True if a line has the sine or the cosine of a multiple of an angle.
-    fn has_multiples(&self) -> bool {
-        let lines = self.sections.iter().flat_map(|section| &section.lines);
-        lines.flat_map(|line| &line.sum).any(has_multiple)
+        lines.flat_map(|line| &line.sum).any(is_such)
     }
 
     /// The numbers of the first two joints that turn; of one joint twice the same.
     fn turning(&self) -> Option<[usize; 2]> {
-        let turning = self
-            .variables
-            .iter()
-            .filter(|variable| variable.kind == JointKind::Revolute);
+        let turns = |variable: &&Variable| variable.kind == JointKind::Revolute;
+        let turning = self.variables.iter().filter(turns);
         let mut numbers = turning.map(|variable| variable.joint + 1);
         let first = numbers.next()?;
         Some([first, numbers.next().unwrap_or(first)])
@@ -193,23 +160,18 @@ impl Formulas {
 
     /// True if D, h or c are among the formulas.
     fn has_coefficients(&self) -> bool {
-        let first = |section: &Section| section.list.as_ref().map(|list| list.name.clone());
-        let names: Vec<String> = self.sections.iter().filter_map(first).collect();
-        ["D", "h", "c"]
-            .iter()
-            .any(|name| names.iter().any(|other| other == name))
+        let mut lists = self.sections.iter().flat_map(|section| &section.list);
+        lists.any(|list| ["D", "h", "c"].contains(&list.name.as_str()))
     }
 }
 
 /// Writes a sum as plain text, six digits a number.
 pub fn written(sum: &Sum) -> String {
-    let format = Text {
-        digits: Digits::Six,
-        joins: true,
-    };
-    format.sum(sum)
+    let (digits, joins) = (Digits::Six, true);
+    Text { digits, joins }.sum(sum)
 }
 
+/// True for the sine or the cosine of a multiple of an angle.
 fn has_multiple(term: &Term) -> bool {
     term.factors.iter().any(|factor| match factor {
         Factor::Wave(trig, _) => trig.angle.iter().any(|(multiple, _)| multiple.abs() > 1),
@@ -219,21 +181,32 @@ fn has_multiple(term: &Term) -> bool {
 }
 
 fn zeros(section: &Section, format: &impl Format) -> Option<String> {
-    let names: Vec<String> = section
-        .zeros
-        .iter()
-        .map(|symbol| format.symbol(symbol))
-        .collect();
-    (!names.is_empty()).then(|| names.join(", "))
+    let names = section.zeros.iter().map(|symbol| format.symbol(symbol));
+    let text = names.collect::<Vec<_>>().join(", ");
+    (!text.is_empty()).then_some(text)
 }
 
 fn value<F: Format>(entry: &SymbolEntry, format: &F) -> String {
-    let sign = if entry.value.is_negative() {
-        F::MINUS
-    } else {
-        ""
-    };
-    format!("{sign}{}", format.number(&entry.value.abs()))
+    let size = format.number(&entry.value.abs());
+    match entry.value.is_negative() {
+        true => format!("{}{size}", F::MINUS),
+        false => size,
+    }
+}
+
+/// Writes symbols with their sums and values, each between marks.
+fn defined(entries: &[SymbolEntry], format: &impl Format, mark: &str, gap: &str) -> String {
+    let definitions = entries.iter().map(|entry| {
+        let (symbol, value) = (format.symbol(&entry.symbol), value(entry, format));
+        match entry.sum.is_empty() {
+            true => format!("{mark}{symbol} = {value}{mark}"),
+            false => format!(
+                "{mark}{symbol} = {} = {value}{mark}",
+                format.sum(&entry.sum)
+            ),
+        }
+    });
+    definitions.collect::<Vec<_>>().join(gap)
 }
 
 /// Writes ` + ` or ` - ` before a number's size.
@@ -242,8 +215,4 @@ fn signed(text: &str) -> String {
         Some(size) => format!(" - {size}"),
         None => format!(" + {text}"),
     }
-}
-
-fn plus(length: &Rational) -> String {
-    signed(&write_decimal(length).unwrap_or_else(|| length.to_string()))
 }

@@ -1,5 +1,6 @@
 //! The coefficients of the dynamics from the equations of the model, over any scalar.
 
+use dalembert_codegen::Diagnostic;
 use dalembert_codegen::workspace::{Quantity, Setup, Sizes};
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::Chain;
@@ -9,10 +10,11 @@ use dalembert_model::equations::matrix::Columns;
 use dalembert_model::scalar::Scalar;
 
 use crate::arm::{PosedChain, SymbolicArm};
+use crate::error;
 use crate::ring::Polynomial;
 
 /// D_ik, h_ikm and c_i of the joints that results are over.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Coefficients<S> {
     /// n×n, symmetric.
     pub inertia: Vec<Vec<S>>,
@@ -40,16 +42,11 @@ impl<S: Scalar> Coefficients<S> {
             (!selected.iter().any(&is_lost)).then_some(selected)
         };
         let square = |values: &[S]| values.chunks(n).map(<[S]>::to_vec).collect();
-        let gravity = select(
-            Quantity::Gravity,
-            composite.gravity(CompositeOrder::Outward),
-        )?;
+        let of_links = composite.gravity(CompositeOrder::Outward);
+        let gravity = select(Quantity::Gravity, of_links)?;
         // A lost number shows here, before most of the work.
-        let inertia = composite
-            .inertia(CompositeOrder::Inward)
-            .into_iter()
-            .flatten();
-        let inertia = select(Quantity::Inertia, inertia.collect())?;
+        let inertia = composite.inertia(CompositeOrder::Inward);
+        let inertia = select(Quantity::Inertia, inertia.concat())?;
         let christoffel = composite.christoffel().into_iter().flatten().flatten();
         let christoffel = select(Quantity::Christoffel, christoffel.collect())?;
         Some(Coefficients {
@@ -57,6 +54,20 @@ impl<S: Scalar> Coefficients<S> {
             christoffel: christoffel.chunks(n * n).map(square).collect(),
             gravity,
         })
+    }
+}
+
+impl SymbolicArm {
+    /// Computes the coefficients of a chain with the frames of a posed one.
+    pub fn coefficients(
+        &self,
+        setup: &Setup,
+        posed: &PosedChain<Polynomial>,
+        chain: &Chain<Polynomial>,
+    ) -> Result<Coefficients<Polynomial>, Diagnostic> {
+        let following = &self.arm.following;
+        Coefficients::new(setup, following, posed, chain, Polynomial::is_lost)
+            .ok_or_else(error::large)
     }
 }
 

@@ -56,6 +56,14 @@ impl Term {
             factors,
         }
     }
+
+    /// Makes a product with a number in front, unless that is 1 or −1.
+    pub(crate) fn times(number: &Number, mut factors: Vec<Factor>) -> Term {
+        if !size_is_one(number) {
+            factors.insert(0, Factor::Exact(number.abs()));
+        }
+        Term::new(number.is_negative(), factors)
+    }
 }
 
 /// Counts the products of a sum, those inside of parentheses each.
@@ -72,24 +80,21 @@ pub fn products(sum: &[Term]) -> usize {
 
 /// Writes the factors of a shape.
 pub fn shaped(shape: &Shape, runs: &Runs) -> Vec<Factor> {
-    let mut factors: Vec<Factor> = shape
-        .slides
-        .iter()
-        .zip(&runs.slide_symbols)
-        .filter(|(power, _)| **power > 0)
-        .map(|(power, symbol)| Factor::Symbol(symbol.clone(), *power as u32))
-        .collect();
+    let mut factors = Vec::new();
+    for (power, symbol) in shape.slides.iter().zip(&runs.slide_symbols) {
+        if *power > 0 {
+            factors.push(Factor::Symbol(symbol.clone(), *power as u32));
+        }
+    }
     for (waves, run) in shape.waves.iter().zip(&runs.runs) {
         let mut waves: Vec<_> = waves.iter().collect();
         waves.sort_by_key(|wave| (!wave.is_sine, &wave.multiples));
         for group in waves.chunk_by(|a, b| a == b) {
             let multiples = group[0].multiples.iter().zip(run);
+            let numbered = multiples.map(|(multiple, joint)| (*multiple, joint + 1));
             let trig = Trig {
                 is_sine: group[0].is_sine,
-                angle: multiples
-                    .filter(|(multiple, _)| **multiple != 0)
-                    .map(|(multiple, joint)| (*multiple, joint + 1))
-                    .collect(),
+                angle: numbered.filter(|(multiple, _)| *multiple != 0).collect(),
             };
             factors.push(Factor::Wave(trig, group.len() as u32));
         }
@@ -115,39 +120,29 @@ pub fn with_numbers(terms: &Terms, runs: &Runs) -> Sum {
             ..Term::new(value.is_negative(), factors)
         })
     };
-    let (large, small): (Vec<Term>, Vec<Term>) = terms
-        .iter()
-        .filter_map(term)
-        .partition(|term| !term.is_small);
-    large.into_iter().chain(small).collect()
+    let mut sum: Sum = terms.iter().filter_map(term).collect();
+    sum.sort_by_key(|term| term.is_small);
+    sum
 }
-
-/// Terms with the same symbols.
-type LikeTerms<'a> = Vec<(&'a Shape, Number)>;
 
 /// Writes an entry by the products of symbols in it: each times a sum, a common number outside.
 pub fn by_symbols(terms: &Terms, runs: &Runs, name: impl Fn(Symbols) -> Vec<Factor>) -> Sum {
-    let mut groups: BTreeMap<(Option<usize>, Symbols), LikeTerms<'_>> = BTreeMap::new();
+    let mut groups: BTreeMap<_, Vec<(&Shape, Number)>> = BTreeMap::new();
     for (shape, form) in terms {
         for (symbols, x) in form {
             let group = groups.entry((symbols.parameter_index(), *symbols));
             group.or_default().push((shape, *x));
         }
     }
-    let terms = |(symbols, group): (Symbols, LikeTerms<'_>)| {
+    let mut sum = Sum::new();
+    for ((_, symbols), group) in groups {
         let common = name(symbols);
         match common.is_empty() {
-            true => group
-                .chunks(1)
-                .map(|one| grouped(Vec::new(), one, runs))
-                .collect(),
-            false => vec![grouped(common, &group, runs)],
+            true => sum.extend(group.chunks(1).map(|one| grouped(Vec::new(), one, runs))),
+            false => sum.push(grouped(common, &group, runs)),
         }
-    };
-    let groups = groups
-        .into_iter()
-        .map(|((_, symbols), group)| (symbols, group));
-    groups.flat_map(terms).collect()
+    }
+    sum
 }
 
 /// Adds up terms of the same symbols.
@@ -164,11 +159,9 @@ pub fn collected(sum: Sum) -> Sum {
             }
         }
         symbols.sort();
-        let number = if term.is_negative {
-            number.neg()
-        } else {
-            number
-        };
+        if term.is_negative {
+            number = number.neg();
+        }
         match sums.iter_mut().find(|(known, _)| *known == symbols) {
             Some((_, sum)) => *sum = sum.add(&number),
             None => sums.push((symbols, number)),
@@ -177,11 +170,7 @@ pub fn collected(sum: Sum) -> Sum {
     sums.retain(|(_, x)| !x.is_zero());
     let term = |(symbols, x): (Vec<(Symbol, u32)>, Number)| {
         let factor = |(symbol, power)| Factor::Symbol(symbol, power);
-        let mut factors: Vec<Factor> = symbols.into_iter().map(factor).collect();
-        if !size_is_one(&x) {
-            factors.insert(0, Factor::Exact(x.abs()));
-        }
-        Term::new(x.is_negative(), factors)
+        Term::times(&x, symbols.into_iter().map(factor).collect())
     };
     sums.into_iter().map(term).collect()
 }
@@ -202,16 +191,15 @@ pub fn grouped(common: Vec<Factor>, group: &[(&Shape, Number)], runs: &Runs) -> 
             Term::new(x.is_negative() != is_negative, factors)
         })
         .collect();
-    let mut factors = Vec::new();
-    if same && !size_is_one(&first) {
-        factors.push(Factor::Exact(first.abs()));
-    }
-    factors.extend(common);
+    let mut factors = common;
     match inner.len() {
         1 => factors.extend(inner.remove(0).factors),
         _ => factors.push(Factor::Sum(inner)),
     }
-    Term::new(is_negative, factors)
+    match same {
+        true => Term::times(&first, factors),
+        false => Term::new(is_negative, factors),
+    }
 }
 
 fn size_is_one(x: &Number) -> bool {

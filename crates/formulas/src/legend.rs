@@ -77,9 +77,9 @@ pub struct Legend {
 
 impl Legend {
     /// Adds an entry of the robot file to its group.
-    pub(crate) fn entry(&mut self, label: String, definition: &Definition<Number>) {
+    pub(crate) fn entry(&mut self, label: String, definition: Definition<Number>) {
         let entry = SymbolEntry {
-            symbol: definition.symbol.clone(),
+            symbol: definition.symbol,
             sum: Sum::new(),
             value: definition.value,
         };

@@ -33,7 +33,6 @@
 
 mod arm;
 mod bodies;
-mod builder;
 mod canonical;
 pub mod couplings;
 mod document;
@@ -43,14 +42,12 @@ mod expression;
 mod formulas;
 mod legend;
 mod line;
-mod lists;
 mod names;
 mod naming;
 mod number;
 mod quantity;
 mod ring;
 mod rows;
-mod runs;
 mod symbol;
 mod write;
 

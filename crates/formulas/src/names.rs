@@ -23,37 +23,32 @@ pub struct Names<'a> {
 impl Names<'_> {
     /// Writes a product of symbols.
     pub fn factors(&self, symbols: Symbols) -> Vec<Factor> {
-        let lengths = symbols.lengths().map(|(index, power)| {
-            let symbol = self.arm.lengths[index].symbol.clone();
-            Factor::Symbol(symbol, power)
-        });
-        let parameter = symbols.parameter_index().map(|index| {
-            let symbol = self.parameters[index].0.clone();
-            Factor::Symbol(symbol, 1)
-        });
         // Gravity is read before lengths, and lengths before masses.
-        lengths.chain(parameter).collect()
+        let mut factors = Vec::new();
+        for (index, power) in symbols.lengths() {
+            factors.push(Factor::Symbol(
+                self.arm.symbols.lengths[index].symbol.clone(),
+                power,
+            ));
+        }
+        if let Some(index) = symbols.parameter_index() {
+            factors.push(Factor::Symbol(self.parameters[index].0.clone(), 1));
+        }
+        factors
     }
 
     /// Writes a form as a sum of products.
     pub fn form(&self, form: &Form) -> Sum {
         let mut terms: Vec<(&Symbols, &Number)> = form.iter().collect();
         terms.sort_by_key(|(symbols, _)| (symbols.parameter_index(), **symbols));
-        let term = |(symbols, x): (&Symbols, &Number)| {
-            let mut factors = self.factors(*symbols);
-            if !x.abs().is_one() {
-                factors.insert(0, Factor::Exact(x.abs()));
-            }
-            Term::new(x.is_negative(), factors)
-        };
+        let term = |(symbols, x): (&Symbols, &Number)| Term::times(x, self.factors(*symbols));
         terms.into_iter().map(term).collect()
     }
 
-    /// Returns the value of a form.
     pub fn value(&self, form: &Form) -> Number {
-        let values: Vec<Number> = self.parameters.iter().map(|(_, value)| *value).collect();
+        let parameter = |index: usize| self.parameters[index].1;
         form.iter().fold(Number::zero(), |sum, (symbols, x)| {
-            sum.add(&self.arm.value_of(*symbols, &values).mul(x))
+            sum.add(&self.arm.value_of(*symbols, parameter).mul(x))
         })
     }
 }
@@ -76,11 +71,10 @@ impl SharedConstants {
     /// Returns the place of the constant of a form, and the form's factor.
     fn place(&mut self, form: &Form) -> (usize, Number) {
         let lead = form.values().next().copied().unwrap_or_else(Number::one);
-        let ratio = |x: &Number| x.over(&lead).unwrap_or_else(Number::zero);
-        let normal: Form = form
-            .iter()
-            .map(|(symbols, x)| (*symbols, ratio(x)))
-            .collect();
+        let mut normal = form.clone();
+        for x in normal.values_mut() {
+            *x = x.over(&lead).unwrap_or_else(Number::zero);
+        }
         let key = normal.iter().map(|(symbols, x)| (*symbols, x.residue()));
         let next = self.forms.len();
         let place = *self.index.entry(key.collect()).or_insert(next);
@@ -97,17 +91,13 @@ impl SharedConstants {
             let (place, lead) = self.place(form);
             groups.entry(place).or_default().push((shape, lead));
         }
-        let term = |(place, group): (usize, Vec<(&Shape, Number)>)| {
-            grouped(
-                vec![Factor::Symbol(SharedConstants::symbol(place), 1)],
-                &group,
-                runs,
-            )
+        let term = |(place, group): (usize, Vec<_>)| {
+            let constant = Factor::Symbol(SharedConstants::symbol(place), 1);
+            grouped(vec![constant], &group, runs)
         };
         groups.into_iter().map(term).collect()
     }
 
-    /// Returns the name of a constant.
     pub fn symbol(place: usize) -> Symbol {
         Symbol::indexed("K", place + 1)
     }

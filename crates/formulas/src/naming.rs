@@ -10,7 +10,7 @@ use crate::ring::{MAX_LENGTHS, Polynomial, Symbols};
 use crate::symbol::{Definition, Symbol};
 
 /// The symbols of an arm.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub struct SymbolTable {
     /// Lengths and gravity.
     pub lengths: Vec<Definition<Number>>,
@@ -22,9 +22,6 @@ pub struct SymbolTable {
 
 impl SymbolTable {
     /// Replaces every number that is not zero, but for angles.
-    ///
-    /// # Errors
-    /// There are too many lengths.
     pub fn new(arm: &mut Arm<Polynomial>) -> Result<SymbolTable, Diagnostic> {
         let mut naming = SymbolTable::default();
         naming.gravity(&mut arm.gravity);
@@ -57,19 +54,20 @@ impl SymbolTable {
                     naming.length(entry, Symbol::centre(axis, number), Some(row));
                 }
             }
-            naming.parameter(&mut link.mass, Symbol::indexed("m", number), row);
             let tensor = &mut link.inertia;
             let entries = [
-                ("xx", &mut tensor.xx),
-                ("yy", &mut tensor.yy),
-                ("zz", &mut tensor.zz),
-                ("xy", &mut tensor.xy),
-                ("yz", &mut tensor.yz),
-                ("xz", &mut tensor.xz),
-                ("a", &mut link.armature),
+                (Symbol::indexed("m", number), &mut link.mass),
+                (Symbol::inertia(number, "xx"), &mut tensor.xx),
+                (Symbol::inertia(number, "yy"), &mut tensor.yy),
+                (Symbol::inertia(number, "zz"), &mut tensor.zz),
+                (Symbol::inertia(number, "xy"), &mut tensor.xy),
+                (Symbol::inertia(number, "yz"), &mut tensor.yz),
+                (Symbol::inertia(number, "xz"), &mut tensor.xz),
+                (Symbol::inertia(number, "a"), &mut link.armature),
             ];
-            for (entry, place) in entries {
-                naming.parameter(place, Symbol::inertia(number, entry), row);
+            let parameters = &mut naming.parameters;
+            for (symbol, place) in entries {
+                name(parameters, Symbols::parameter, place, symbol, Some(row));
             }
         }
         Ok(naming)
@@ -78,17 +76,13 @@ impl SymbolTable {
     /// Along one axis its symbol is its size.
     fn gravity(&mut self, gravity: &mut [Polynomial; 3]) {
         let mut along = gravity.iter_mut().filter(|g| !g.is_zero());
-        let first = along.next();
-        match (first, along.next()) {
+        match (along.next(), along.next()) {
             (Some(only), None) => {
                 let is_negative = only.to_constant().is_some_and(|g| g.is_negative());
-                let mut size = if is_negative {
-                    only.neg()
-                } else {
-                    only.clone()
-                };
+                let signed = |g: &Polynomial| if is_negative { g.neg() } else { g.clone() };
+                let mut size = signed(only);
                 self.length(&mut size, Symbol::indexed("g", ""), None);
-                *only = if is_negative { size.neg() } else { size };
+                *only = signed(&size);
             }
             _ => {
                 for (axis, entry) in ["gx", "gy", "gz"].into_iter().zip(gravity) {
@@ -100,16 +94,6 @@ impl SymbolTable {
 
     fn length(&mut self, place: &mut Polynomial, symbol: Symbol, row: Option<usize>) {
         name(&mut self.lengths, Symbols::length, place, symbol, row);
-    }
-
-    fn parameter(&mut self, place: &mut Polynomial, symbol: Symbol, row: usize) {
-        name(
-            &mut self.parameters,
-            Symbols::parameter,
-            place,
-            symbol,
-            Some(row),
-        );
     }
 }
 

@@ -44,9 +44,13 @@ impl Number {
             denominator += 1;
         }
         let halved = (0..denominator).fold(Field::from_i64(whole as i64), |x, _| x.half());
+        Number::exact(halved, Wide::from_f64(value).unwrap_or_else(Wide::zero))
+    }
+
+    fn exact(residue: Field, value: Wide) -> Number {
         Number {
-            residue: halved,
-            value: Wide::from_f64(value).unwrap_or_else(Wide::zero),
+            residue,
+            value,
             error: 0.0,
         }
     }
@@ -162,18 +166,10 @@ fn plain(text: &str) -> String {
 
 impl Scalar for Number {
     fn zero() -> Self {
-        Number {
-            residue: Field::ZERO,
-            value: Wide::zero(),
-            error: 0.0,
-        }
+        Number::exact(Field::ZERO, Wide::zero())
     }
     fn one() -> Self {
-        Number {
-            residue: Field::ONE,
-            value: Wide::one(),
-            error: 0.0,
-        }
+        Number::exact(Field::ONE, Wide::one())
     }
     fn add(&self, other: &Self) -> Self {
         let is_exact = self.error == 0.0 && other.error == 0.0;
@@ -242,7 +238,6 @@ pub struct Constants {
 }
 
 impl Constants {
-    /// Makes an empty list of angles.
     pub fn new() -> Constants {
         Constants {
             points: Points::new(SEED),
@@ -251,7 +246,6 @@ impl Constants {
         }
     }
 
-    /// Converts one constant.
     pub fn number(&mut self, constant: &Exact) -> Number {
         let Constants { points, angles, .. } = self;
         let mut pair = |angle: &Angle| {
@@ -331,9 +325,8 @@ mod tests {
         assert_eq!(number(22, 7).to_fraction(), Some(ratio(22, 7)));
         assert_eq!(number(7, 300).to_fraction(), Some(ratio(7, 300)));
         let decimal = ratio(-123_456_789_123, 1_000_000_000_000);
-        let square = number(-123_456_789_123, 1_000_000_000_000);
-        let square = square.mul(&square);
-        assert_eq!(square.to_fraction(), Some(&decimal * &decimal));
+        let long = number(-123_456_789_123, 1_000_000_000_000);
+        assert_eq!(long.mul(&long).to_fraction(), Some(&decimal * &decimal));
         let pair = Exact::sincos(&Angle::PiTimes(ratio(1, 3)));
         let odd = Constants::new().number(&pair.sin);
         assert_eq!(odd.to_fraction(), None);
@@ -371,22 +364,15 @@ mod tests {
             let sine = sine_of_sum(angles);
             assert!(sine.is_zero() && sine.residue() == Field::ZERO);
         }
+        let near = radians(-600_000_000_001, 1_000_000_000_000);
         let others = [
-            [
-                radians(3, 10),
-                radians(3, 10),
-                radians(-600_000_000_001, 1_000_000_000_000),
-            ],
+            [radians(3, 10), radians(3, 10), near],
             [radians(1, 3), radians(-2, 3), twenty_digits(third + 1000)],
         ];
         for angles in others {
             assert!(!sine_of_sum(angles).is_zero());
         }
-        assert!(
-            number(1, 1_000_000_000)
-                .mul(&number(1, 1_000_000_000))
-                .residue()
-                != Field::ZERO
-        );
+        let tiny = number(1, 1_000_000_000);
+        assert!(tiny.mul(&tiny).residue() != Field::ZERO);
     }
 }

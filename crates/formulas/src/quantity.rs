@@ -1,56 +1,37 @@
 //! The quantities that have formulas.
 
-use dalembert_codegen::workspace::Word;
+use dalembert_codegen::words;
 
 use crate::symbol::Symbol;
 
-/// A quantity whose entries are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Quantity {
-    /// D_ik (eq. 2.6).
-    Inertia,
-    /// h_ikm (eq. 2.7).
-    Christoffel,
-    /// c_i (eq. 2.8).
-    Gravity,
-    /// τ_i by D, h and c (eq. 2.3).
-    Torque,
-    /// D^rot_ik of generalized D'Alembert (eq. 4.2): the part of the links' moments of inertia.
-    InertiaRotation,
-    /// D^tran_ik: the part of the links' masses.
-    InertiaTranslation,
-    /// h^rot_ikm (eq. 4.4).
-    ChristoffelRotation,
-    /// h^tran_ikm (eq. 4.3).
-    ChristoffelTranslation,
-    /// T = ½ q̇ᵀ D q̇.
-    KineticEnergy,
-    /// U = −Σ m_j g·r_j.
-    PotentialEnergy,
-    /// The hand's rotation R and position p in base axes.
-    Pose,
-    /// The hand's Jacobian, linear velocity first, in base axes.
-    Jacobian,
-}
-
-impl Word for Quantity {
-    const WHAT: &'static str = "quantity that has formulas";
-
-    fn all() -> Vec<(&'static str, Quantity)> {
-        vec![
-            ("D", Quantity::Inertia),
-            ("h", Quantity::Christoffel),
-            ("c", Quantity::Gravity),
-            ("tau", Quantity::Torque),
-            ("D_rot", Quantity::InertiaRotation),
-            ("D_tran", Quantity::InertiaTranslation),
-            ("h_rot", Quantity::ChristoffelRotation),
-            ("h_tran", Quantity::ChristoffelTranslation),
-            ("T", Quantity::KineticEnergy),
-            ("U", Quantity::PotentialEnergy),
-            ("pose", Quantity::Pose),
-            ("jacobian", Quantity::Jacobian),
-        ]
+words! {
+    /// A quantity whose entries are written.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum Quantity: "quantity that has formulas" {
+        /// D_ik (eq. 2.6).
+        Inertia = "D",
+        /// h_ikm (eq. 2.7).
+        Christoffel = "h",
+        /// c_i (eq. 2.8).
+        Gravity = "c",
+        /// τ_i by D, h and c (eq. 2.3).
+        Torque = "tau",
+        /// D^rot_ik of generalized D'Alembert (eq. 4.2): the part of the links' moments of inertia.
+        InertiaRotation = "D_rot",
+        /// D^tran_ik: the part of the links' masses.
+        InertiaTranslation = "D_tran",
+        /// h^rot_ikm (eq. 4.4).
+        ChristoffelRotation = "h_rot",
+        /// h^tran_ikm (eq. 4.3).
+        ChristoffelTranslation = "h_tran",
+        /// T = ½ q̇ᵀ D q̇.
+        KineticEnergy = "T",
+        /// U = −Σ m_j g·r_j.
+        PotentialEnergy = "U",
+        /// The hand's rotation R and position p in base axes.
+        Pose = "pose",
+        /// The hand's Jacobian, linear velocity first, in base axes.
+        Jacobian = "jacobian",
     }
 }
 
@@ -81,19 +62,12 @@ impl Quantity {
 
     /// The letter and the mark of its entries.
     pub(crate) fn letters(self) -> [&'static str; 2] {
+        let name = self.name();
         match self {
-            Quantity::Inertia => ["D", ""],
-            Quantity::Christoffel => ["h", ""],
-            Quantity::Gravity => ["c", ""],
             Quantity::Torque => ["τ", ""],
-            Quantity::InertiaRotation => ["D", "rot"],
-            Quantity::InertiaTranslation => ["D", "tran"],
-            Quantity::ChristoffelRotation => ["h", "rot"],
-            Quantity::ChristoffelTranslation => ["h", "tran"],
-            Quantity::KineticEnergy => ["T", ""],
-            Quantity::PotentialEnergy => ["U", ""],
             Quantity::Pose => ["R", ""],
             Quantity::Jacobian => ["J", ""],
+            _ => name.split_once('_').unwrap_or((name, "")).into(),
         }
     }
 

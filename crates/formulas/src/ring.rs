@@ -6,6 +6,9 @@
 //! - 10 bits for one inertial parameter, in which all forms are linear, and 2 bits for the power of
 //!   each of 59 lengths: forces and moments are of degree 2 in them at most.
 
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
 use crate::number::Number;
@@ -86,7 +89,6 @@ impl Symbols {
         }
     }
 
-    /// Returns the product of two.
     #[must_use]
     pub fn times(self, other: Symbols) -> Symbols {
         Symbols(self.0 + other.0)
@@ -113,12 +115,10 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// Makes a constant.
     pub fn constant(value: Number) -> Polynomial {
         Polynomial::term(Monomial::default(), value)
     }
 
-    /// Makes a symbol.
     pub fn symbol(symbols: Symbols) -> Polynomial {
         let motion = 0;
         Polynomial::term(Monomial { symbols, motion }, Number::one())
@@ -150,20 +150,16 @@ impl Polynomial {
     }
 
     fn of(terms: Vec<(Monomial, Number)>) -> Polynomial {
+        let is_lost = false;
         match terms.len() > MAX_TERMS {
             true => Polynomial::lost(),
-            false => Polynomial {
-                terms,
-                is_lost: false,
-            },
+            false => Polynomial { terms, is_lost },
         }
     }
 
     fn lost() -> Polynomial {
-        Polynomial {
-            terms: Vec::new(),
-            is_lost: true,
-        }
+        let (terms, is_lost) = (Vec::new(), true);
+        Polynomial { terms, is_lost }
     }
 
     /// True if it has too many terms.
@@ -178,14 +174,8 @@ impl Polynomial {
 
     /// Counts the products of sines, cosines and slides, whatever symbols they stand with.
     pub fn motions(&self) -> usize {
-        let mut motions: Vec<u128> = self
-            .terms
-            .iter()
-            .map(|(monomial, _)| monomial.motion)
-            .collect();
-        motions.sort_unstable();
-        motions.dedup();
-        motions.len()
+        let motions = self.terms.iter().map(|(monomial, _)| monomial.motion);
+        motions.collect::<BTreeSet<u128>>().len()
     }
 
     /// Returns the constant that it is, if it is one.
@@ -201,10 +191,9 @@ impl Polynomial {
     /// Returns each coefficient times a factor.
     #[must_use]
     pub fn scaled(&self, factor: &Number) -> Polynomial {
-        let scaled = self.each(|x| x.mul(factor));
         match factor.is_zero() {
             true => Polynomial::default(),
-            false => scaled,
+            false => self.each(|x| x.mul(factor)),
         }
     }
 
@@ -275,15 +264,15 @@ impl Scalar for Polynomial {
         let mut sums = Vec::with_capacity(a.len() + b.len());
         while let ([(m, x), rest @ ..], [(n, y), others @ ..]) = (a, b) {
             match m.cmp(n) {
-                core::cmp::Ordering::Less => {
+                Ordering::Less => {
                     sums.push((*m, *x));
                     a = rest;
                 }
-                core::cmp::Ordering::Greater => {
+                Ordering::Greater => {
                     sums.push((*n, *y));
                     b = others;
                 }
-                core::cmp::Ordering::Equal => {
+                Ordering::Equal => {
                     let sum = x.add(y);
                     if !sum.is_zero() {
                         sums.push((*m, sum));
@@ -297,11 +286,10 @@ impl Scalar for Polynomial {
         Polynomial::of(sums)
     }
     fn mul(&self, other: &Self) -> Self {
-        if let Some(factor) = other.to_constant() {
-            return self.scaled(&factor);
-        }
-        if let Some(factor) = self.to_constant() {
-            return other.scaled(&factor);
+        for (polynomial, other) in [(self, other), (other, self)] {
+            if let Some(factor) = other.to_constant() {
+                return polynomial.scaled(&factor);
+            }
         }
         let products = self.terms.len() * other.terms.len();
         if self.is_lost || other.is_lost || products > MAX_PRODUCTS {
@@ -356,9 +344,8 @@ mod tests {
             one.add(&sin).add(&cos)
         };
         let product = |joints: usize| {
-            (0..joints).fold(one.clone(), |polynomial, joint| {
-                polynomial.mul(&factor(joint))
-            })
+            let factors = (0..joints).map(factor);
+            factors.fold(one.clone(), |product, factor| product.mul(&factor))
         };
         assert_eq!(product(9).terms().len(), 3usize.pow(9));
         let lost = product(10);

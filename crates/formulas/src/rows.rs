@@ -53,19 +53,14 @@ impl Moments {
         bodies: &Chain<Polynomial>,
         factor: impl Fn(&Polynomial) -> Option<(bool, Factor)>,
     ) -> Moments {
-        let links = bodies.links.iter().map(|link| {
+        let (mut links, mut armatures) = (Vec::new(), Vec::new());
+        for link in &bodies.links {
             let moments = MOMENTS.into_iter().zip(moments_of(&link.body));
             let written = moments.filter_map(|(name, value)| Some((name, factor(&value)?)));
-            written.collect()
-        });
-        let armatures = bodies
-            .links
-            .iter()
-            .map(|link| Some(factor(&link.armature)?.1));
-        Moments {
-            links: links.collect(),
-            armatures: armatures.collect(),
+            links.push(written.collect());
+            armatures.push(factor(&link.armature).map(|(_, factor)| factor));
         }
+        Moments { links, armatures }
     }
 
     /// Multiplies the moments of a link, each by its sum of products.
@@ -85,9 +80,9 @@ impl Moments {
                 _ => (false, vec![Factor::Sum(sum)]),
             };
             let is_number = |factor: &Factor| matches!(factor, Factor::Exact(_));
-            let numbers = factors.iter().filter(|factor| is_number(factor)).cloned();
-            let mut product: Vec<Factor> = numbers.chain([factor.clone()]).collect();
-            product.extend(factors.iter().filter(|factor| !is_number(factor)).cloned());
+            let (mut product, rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(is_number);
+            product.push(factor.clone());
+            product.extend(rest);
             weighed.push(Term::new(sign != *is_negative, product));
         }
         weighed
@@ -137,28 +132,31 @@ impl<'a> Rows<'a> {
     /// Returns the links that the joints of all these links move.
     fn moved(&self, joints: &[usize]) -> Vec<usize> {
         let moves = |s: usize, i: usize| self.chain.way(s).any(|link| link == i);
-        let links = 0..self.chain.links.len();
-        links
-            .filter(|&s| joints.iter().all(|&i| moves(s, i)))
-            .collect()
+        let is_moved = |s: &usize| joints.iter().all(|&i| moves(*s, i));
+        (0..self.chain.links.len()).filter(is_moved).collect()
+    }
+
+    /// Names a component of a row by what it means.
+    fn component(
+        &mut self,
+        letter: &str,
+        axis: &str,
+        indices: &[usize],
+        meaning: Meaning,
+    ) -> Component {
+        let symbol = Symbol::row(letter, axis, indices);
+        let is_product = matches!(meaning, Meaning::Products(_));
+        let key = (is_product, indices.to_vec(), symbol.clone());
+        self.definitions.entry(key).or_insert(meaning);
+        Component::Named(symbol)
     }
 
     fn named(&mut self, letter: &str, indices: &[usize], values: [Polynomial; 3]) -> Vector {
-        let mut axes = ["x", "y", "z"].into_iter();
-        values.map(|value| {
-            let axis = axes.next().unwrap_or_default();
-            if let Some(number) = value.to_constant() {
-                return match number.is_zero() {
-                    true => Component::Zero,
-                    false => Component::Number(number),
-                };
-            }
-            let symbol = Symbol::row(letter, axis, indices);
-            let key = (false, indices.to_vec(), symbol.clone());
-            self.definitions
-                .entry(key)
-                .or_insert(Meaning::Polynomial(value));
-            Component::Named(symbol)
+        let [x, y, z] = values;
+        [("x", x), ("y", y), ("z", z)].map(|(axis, value)| match value.to_constant() {
+            Some(number) if number.is_zero() => Component::Zero,
+            Some(number) => Component::Number(number),
+            None => self.component(letter, axis, indices, Meaning::Polynomial(value)),
         })
     }
 
@@ -173,20 +171,11 @@ impl<'a> Rows<'a> {
     }
 
     /// Returns a × b, each component a name.
-    fn cross(&mut self, letter: &str, indices: &[usize], [a, b]: [&Vector; 2]) -> Vector {
-        let sums = cross_products(a, b).map(collected);
-        let mut axes = ["x", "y", "z"].into_iter();
-        sums.map(|sum| {
-            let axis = axes.next().unwrap_or_default();
-            if sum.is_empty() {
-                return Component::Zero;
-            }
-            let symbol = Symbol::row(letter, axis, indices);
-            let key = (true, indices.to_vec(), symbol.clone());
-            self.definitions
-                .entry(key)
-                .or_insert(Meaning::Products(sum));
-            Component::Named(symbol)
+    fn cross(&mut self, letter: &str, indices: &[usize], factors: [&Vector; 2]) -> Vector {
+        let [x, y, z] = cross_products(&[factors]).map(collected);
+        [("x", x), ("y", y), ("z", z)].map(|(axis, sum)| match sum.is_empty() {
+            true => Component::Zero,
+            false => self.component(letter, axis, indices, Meaning::Products(sum)),
         })
     }
 
@@ -235,16 +224,9 @@ impl<'a> Rows<'a> {
         for s in self.moved(&[i, k]) {
             let [w, v] = [self.turn(s, i), self.shift(s, i)];
             let [x, y] = [self.turn(s, k), self.shift(s, k)];
-            let mut firsts = cross_products(&v, &x);
-            for (products, other) in firsts.iter_mut().zip(cross_products(&y, &w)) {
-                products.extend(other);
-            }
-            sum.extend(of.weighed(
-                s,
-                moments(dot_products(&v, &y), firsts, |a, b, factor| {
-                    product(factor, [&w[a], &x[b]])
-                }),
-            ));
+            let firsts = cross_products(&[[&v, &x], [&y, &w]]);
+            let term = |a: usize, b: usize, factor: &Number| product(factor, [&w[a], &x[b]]);
+            sum.extend(of.weighed(s, moments(dot_products(&v, &y), firsts, term)));
         }
         if i == k
             && let Some(factor) = of.armatures[i].clone()
@@ -258,18 +240,11 @@ impl<'a> Rows<'a> {
     fn christoffel_of(&mut self, of: &Moments, [i, k, m]: [usize; 3]) -> Sum {
         let mut sum = Sum::new();
         for s in self.moved(&[i, k, m]) {
-            let [w_i, v_i, w_k, w_m] = [
-                self.turn(s, i),
-                self.shift(s, i),
-                self.turn(s, k),
-                self.turn(s, m),
-            ];
+            let [w_i, w_k, w_m] = [i, k, m].map(|joint| self.turn(s, joint));
+            let v_i = self.shift(s, i);
             let [b_km, b_ki] = [self.bent(s, k, m), self.bent(s, k, i)];
             let u = self.cross("u", &[s, m, i], [&w_m, &w_i]);
-            let mut firsts = cross_products(&w_m, &b_ki);
-            for (products, other) in firsts.iter_mut().zip(cross_products(&b_km, &w_i)) {
-                products.extend(other);
-            }
+            let firsts = cross_products(&[[&w_m, &b_ki], [&b_km, &w_i]]);
             let term = |a: usize, b: usize, factor: &Number| product(factor, [&u[a], &w_k[b]]);
             sum.extend(of.weighed(s, seconds(dot_products(&v_i, &b_km), firsts, term)));
         }
@@ -283,15 +258,9 @@ impl<'a> Rows<'a> {
             let g = self.named("g", &[s], gravity);
             let [w, v] = [self.turn(s, i), self.shift(s, i)];
             let none = |_: usize, _: usize, _: &Number| None;
-            let terms = of.weighed(
-                s,
-                moments(dot_products(&v, &g), cross_products(&g, &w), none),
-            );
-            let negative = terms.into_iter().map(|term| Term {
-                is_negative: !term.is_negative,
-                ..term
-            });
-            sum.extend(negative);
+            let firsts = cross_products(&[[&g, &w]]);
+            let terms = of.weighed(s, moments(dot_products(&v, &g), firsts, none));
+            sum.extend(scaled(terms, &Number::one().neg()));
         }
         sum
     }
@@ -311,11 +280,7 @@ fn product(factor: &Number, components: [&Component; 2]) -> Option<Term> {
             },
         }
     }
-    let size = number.abs();
-    if !size.is_one() {
-        factors.insert(0, Factor::Exact(size));
-    }
-    Some(Term::new(number.is_negative(), factors))
+    Some(Term::times(&number, factors))
 }
 
 /// Multiplies each term by a number.
@@ -335,21 +300,21 @@ fn scaled(sum: Sum, factor: &Number) -> Sum {
 
 fn dot_products(a: &Vector, b: &Vector) -> Sum {
     let one = Number::one();
-    a.iter()
-        .zip(b)
-        .filter_map(|(a, b)| product(&one, [a, b]))
-        .collect()
+    let products = a.iter().zip(b).filter_map(|(a, b)| product(&one, [a, b]));
+    products.collect()
 }
 
-fn cross_products(a: &Vector, b: &Vector) -> [Sum; 3] {
-    let one = Number::one();
+/// Lists the products of a × b, of all pairs together.
+fn cross_products(pairs: &[[&Vector; 2]]) -> [Sum; 3] {
+    let [plus, minus] = [Number::one(), Number::one().neg()];
     [0, 1, 2].map(|axis| {
         let (y, z) = ((axis + 1) % 3, (axis + 2) % 3);
-        let both = [
-            product(&one, [&a[y], &b[z]]),
-            product(&one.neg(), [&a[z], &b[y]]),
-        ];
-        both.into_iter().flatten().collect()
+        let mut sum = Sum::new();
+        for [a, b] in pairs {
+            sum.extend(product(&plus, [&a[y], &b[z]]));
+            sum.extend(product(&minus, [&a[z], &b[y]]));
+        }
+        sum
     })
 }
 

@@ -40,45 +40,33 @@ impl Symbol {
 
     /// Makes the moment of inertia of a link about its centre of mass: I_2zz.
     pub fn inertia(link: usize, entry: &str) -> Symbol {
-        Symbol {
-            text: format!("I{link}{entry}"),
-            latex: format!("I_{{{link}{entry}}}"),
-            code: format!("I{link}{entry}"),
-        }
+        Symbol::indexed("I", format!("{link}{entry}"))
     }
 
     /// Makes the name of an entry of a matrix: `D_11`, with commas where a number has two digits. The
     /// mark is a superscript: `rot`.
     pub fn entry(letters: &str, mark: &str, indices: &[usize]) -> Symbol {
-        let numbers: Vec<String> = indices
-            .iter()
-            .map(|index| (index + 1).to_string())
-            .collect();
+        let from_one = indices.iter().map(|index| (index + 1).to_string());
+        let numbers: Vec<String> = from_one.collect();
         let is_short = numbers.iter().all(|number| number.len() == 1);
         let joined = numbers.join(if is_short { "" } else { "," });
-        let superscript = match mark {
-            "" => String::new(),
-            mark => format!("^{{\\mathrm{{{mark}}}}}"),
+        let words = numbers.join(if is_short { "" } else { "_" });
+        let (hat, superscript) = match mark {
+            "" => ("", String::new()),
+            mark => ("^", format!("^{{\\mathrm{{{mark}}}}}")),
         };
-        let latex = match letters {
-            "τ" => "\\tau",
-            letters => letters,
+        let (under, subscript) = match numbers.is_empty() {
+            true => ("", String::new()),
+            false => ("_", format!("_{{{joined}}}")),
         };
-        let code = if letters == "τ" { "tau" } else { letters };
-        let under = if numbers.is_empty() { "" } else { "_" };
+        let [latex, code] = match letters {
+            "τ" => ["\\tau", "tau"],
+            letters => [letters; 2],
+        };
         Symbol {
-            text: match mark {
-                "" => format!("{letters}{under}{joined}"),
-                mark => format!("{letters}^{mark}{under}{joined}"),
-            },
-            latex: match numbers.is_empty() {
-                true => format!("{latex}{superscript}"),
-                false => format!("{latex}{superscript}_{{{joined}}}"),
-            },
-            code: format!(
-                "{code}{mark}{under}{}",
-                numbers.join(if is_short { "" } else { "_" })
-            ),
+            text: format!("{letters}{hat}{mark}{under}{joined}"),
+            latex: format!("{latex}{superscript}{subscript}"),
+            code: format!("{code}{mark}{under}{words}"),
         }
     }
 
@@ -123,9 +111,7 @@ impl Symbol {
 /// A symbol with its value and where it is from.
 #[derive(Clone, Debug)]
 pub struct Definition<V> {
-    /// The name.
     pub symbol: Symbol,
-    /// The value.
     pub value: V,
     /// The row of the joint that it belongs to; none of the whole robot's.
     pub row: Option<usize>,

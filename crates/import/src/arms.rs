@@ -32,9 +32,8 @@ pub fn arms(
     let mut read = Problems::of(text);
     let model = read_model(text, options, &mut read);
     let mut problems = read.clone();
-    let tips = model
-        .as_ref()
-        .and_then(|model| tips(model, options, &mut problems));
+    let known = model.as_ref();
+    let tips = known.and_then(|model| tips(model, options, &mut problems));
     problems.settle(|_| tips.is_none());
     let notes = problems.finish()?;
     let (Some(model), Some(tips)) = (model, tips) else {

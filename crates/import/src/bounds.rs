@@ -50,20 +50,15 @@ impl Bounds {
     /// Applies the bounds to each body, in MuJoCo's order, and the total mass to the sum.
     pub(crate) fn apply(&self, model: &mut Model, reader: &mut Reader) {
         let links = (0..model.links.len()).filter(|_| self.bound_bodies());
-        let changed: Vec<String> = links
-            .filter_map(|link| self.apply_to(link, model))
-            .collect();
+        let changed = Vec::from_iter(links.filter_map(|link| self.apply_to(link, model)));
         if !changed.is_empty() {
-            let keys: Vec<&str> = [
+            let keys = [
                 self.mass.as_ref().map(|_| "`boundmass`"),
                 self.moment.as_ref().map(|_| "`boundinertia`"),
                 self.balance.then_some("`balanceinertia`"),
-            ]
-            .into_iter()
-            .flatten()
-            .collect();
-            let names = changed.join("`, `");
-            reader.say("bounded", &model.at, &[&keys.join(", "), &names]);
+            ];
+            let keys = Vec::from_iter(keys.into_iter().flatten()).join(", ");
+            reader.report("bounded", &model.at, &[&keys, &changed.join("`, `")]);
         }
         if let Some(total) = &self.total {
             scale(total, model, reader);
@@ -79,11 +74,8 @@ impl Bounds {
         }
         let mut parts: Vec<(usize, &Joint)> = vec![(link, joint)];
         let joints = model.joints.iter().zip(&model.ends);
-        parts.extend(
-            joints
-                .filter(|(_, [parent, _])| *parent == link)
-                .map(|(j, e)| (e[1], j)),
-        );
+        let below = joints.filter(|(_, [parent, _])| *parent == link);
+        parts.extend(below.map(|(joint, [_, child])| (*child, joint)));
         parts.retain(|(part, _)| *part == link || model.links[*part].role == Role::Mark);
         parts.retain(|(part, _)| model.links[*part].inertial.is_some());
         let (holder, before) = match parts[..] {
@@ -99,12 +91,8 @@ impl Bounds {
             return None;
         }
         let is_less = |least: &&Number| before.mass.value < least.value;
-        let mass = self
-            .mass
-            .as_ref()
-            .filter(is_less)
-            .unwrap_or(&before.mass)
-            .clone();
+        let least = self.mass.as_ref().filter(is_less);
+        let mass = least.unwrap_or(&before.mass).clone();
         let tensor = before.inertia.map(|entry| entry.value.clone());
         let mut bounded = tensor.clone();
         if let Some(least) = &self.moment {
@@ -117,10 +105,9 @@ impl Bounds {
         if mass.value == before.mass.value && bounded == tensor {
             return None;
         }
-        let parts: Vec<usize> = parts.iter().map(|(part, _)| *part).collect();
-        parts
-            .iter()
-            .for_each(|part| model.links[*part].inertial = None);
+        for (part, _) in parts {
+            model.links[part].inertial = None;
+        }
         let entry = |value: &Rational| Number::of(value, &before.mass.at);
         let inertia = bounded.map(entry);
         model.links[holder].inertial = Some(Inertial {
@@ -136,7 +123,6 @@ fn diagonal(entry: impl Fn(usize) -> Rational) -> Inertia<Rational> {
     Inertia::symmetric(|i, k| if i == k { entry(i) } else { Rational::zero() })
 }
 
-/// Returns a weight of nothing at a place.
 pub(crate) fn massless(xyz: [Number; 3]) -> Inertial {
     let zero = xyz[0].clone().map(|_| Rational::zero());
     Inertial {
@@ -181,10 +167,8 @@ fn with_moments_of(tensor: &Inertia<Rational>, least: &Rational) -> Inertia<Rati
     if shifted(tensor, &-least).defect(&Rational::one()) != Some(Defect::NegativeMoment) {
         return tensor.clone();
     }
-    if [&tensor.xy, &tensor.yz, &tensor.xz]
-        .iter()
-        .all(|product| product.is_zero())
-    {
+    let products = [&tensor.xy, &tensor.yz, &tensor.xz];
+    if products.iter().all(|product| product.is_zero()) {
         return diagonal(|i| rows[i][i].clone().max(least.clone()));
     }
     let (moments, axes) = principal(rows);
@@ -192,11 +176,8 @@ fn with_moments_of(tensor: &Inertia<Rational>, least: &Rational) -> Inertia<Rati
     let moments = bounded.each_ref().map(Wide::from_rational);
     Inertia::symmetric(|i, k| {
         let terms = (0..3).map(|m| moments[m].mul(&axes[i][m]).mul(&axes[k][m]));
-        rounded(
-            &terms
-                .fold(Wide::zero(), |sum, term| sum.add(&term))
-                .to_rational(),
-        )
+        let sum = terms.fold(Wide::zero(), |sum, term| sum.add(&term));
+        rounded(&sum.to_rational())
     })
 }
 
@@ -207,21 +188,16 @@ fn principal(rows: [[Rational; 3]; 3]) -> ([Wide; 3], [[Wide; 3]; 3]) {
     let mut axes = Columns::<Wide>::identity().axes;
     let absolute = |x: &Wide| if x.is_negative() { x.neg() } else { *x };
     let hypotenuse = |x: &Wide| x.mul(x).add(&Wide::one()).sqrt();
-    for (p, q) in [(0, 1), (0, 2), (1, 2)]
-        .into_iter()
-        .cycle()
-        .take(3 * ROUNDS)
-    {
+    let pairs = [(0, 1), (0, 2), (1, 2)].into_iter().cycle();
+    for (p, q) in pairs.take(3 * ROUNDS) {
         // θ = cot 2φ = (a_qq − a_pp) / 2 a_pq, and tan φ = ±1 / (|θ| + √(θ² + 1)).
         let Some(theta) = a[q][q].sub(&a[p][p]).over(&a[p][q].add(&a[p][q])) else {
             continue;
         };
-        let size = absolute(&theta).add(&hypotenuse(&theta));
-        let size = if theta.is_negative() {
-            size.neg()
-        } else {
-            size
-        };
+        let mut size = absolute(&theta).add(&hypotenuse(&theta));
+        if theta.is_negative() {
+            size = size.neg();
+        }
         let Some(tangent) = Wide::one().over(&size) else {
             continue;
         };
@@ -240,25 +216,16 @@ fn principal(rows: [[Rational; 3]; 3]) -> ([Wide; 3], [[Wide; 3]; 3]) {
     ([a[0][0], a[1][1], a[2][2]], axes)
 }
 
-/// True if only fixed joints are above a link; in a circle there is no end.
-fn is_static(model: &Model, link: usize) -> bool {
-    let up = |joint: &usize| model.above[model.ends[*joint][0]];
-    let mut way = std::iter::successors(model.above[link], up).take(model.joints.len());
-    way.all(|joint| model.joints[joint].kind == Kind::Fixed)
-}
-
 /// Scales all masses to a total, in a URDF without the links that MuJoCo makes part of the world.
 fn scale(total: &Number, model: &mut Model, reader: &mut Reader) {
-    let is_body = |link: &usize| model.format == Format::Mjcf || !is_static(model, *link);
+    let moves = |joint: usize| model.joints[joint].kind != Kind::Fixed;
+    let is_body = |link: &usize| model.format == Format::Mjcf || model.way(*link).any(moves);
     let links: Vec<usize> = (0..model.links.len()).filter(is_body).collect();
     let bodies = links.iter().map(|link| &model.links[*link]);
-    let sum: Rational = bodies
-        .clone()
-        .flat_map(|link| &link.inertial)
-        .map(|bodies| &bodies.mass.value)
-        .sum();
+    let inertials = bodies.clone().flat_map(|link| &link.inertial);
+    let sum: Rational = inertials.map(|inertial| &inertial.mass.value).sum();
     if bodies.into_iter().any(|link| link.has_unknown_mass) || sum.is_zero() {
-        return reader.say("total_unknown", &total.at, &[]);
+        return reader.report("total_unknown", &total.at, &[]);
     }
     let ratio = &total.value / sum;
     let scaled = |before: &Number| Number::of(&(&before.value * &ratio), &before.at);

@@ -11,13 +11,8 @@ use crate::model::{Joint, Kind};
 use crate::problems::Problems;
 use crate::select::position::right;
 
-struct Follows<'j> {
-    leader: usize,
-    multiplier: &'j Rational,
-    offset: Position,
-}
-
-fn follows<'j>(joint: &'j Joint, joints: &[&Joint]) -> Option<Follows<'j>> {
+/// Returns the leader of a joint, and the multiplier and the offset by which the joint follows.
+fn follows<'j>(joint: &'j Joint, joints: &[&Joint]) -> Option<(usize, &'j Rational, Position)> {
     let mimic = joint.mimic.as_ref()?;
     let [multiplier, offset] = mimic.line.as_ref()?;
     let mut leaders = joints.iter();
@@ -26,19 +21,15 @@ fn follows<'j>(joint: &'j Joint, joints: &[&Joint]) -> Option<Follows<'j>> {
         Kind::Prismatic => Position::Length(offset.clone()),
         _ => Position::Angle(right(Angle::Radians(offset.clone()).canonical())),
     };
-    Some(Follows {
-        leader,
-        multiplier,
-        offset,
-    })
+    Some((leader, multiplier, offset))
 }
 
 pub(crate) fn mimic(follower: &Joint, joints: &[&Joint]) -> Option<String> {
-    let relation = follows(follower, joints)?;
+    let (leader, multiplier, offset) = follows(follower, joints)?;
     table([
-        ("joint", Some((relation.leader + 1).to_string())),
-        ("multiplier", Some(number(relation.multiplier))),
-        ("offset", Some(position(&relation.offset))),
+        ("joint", Some((leader + 1).to_string())),
+        ("multiplier", Some(number(multiplier))),
+        ("offset", Some(position(&offset))),
     ])
 }
 
@@ -51,8 +42,7 @@ pub(crate) fn range(joint: &Joint) -> Option<[Position; 2]> {
     }))
 }
 
-/// Returns the names of joints whose range is left out: with it, the joint that they follow could not
-/// move at all.
+/// Returns the names of joints whose range would let the joint that they follow not move at all.
 pub(crate) fn without_room<'m>(joints: &[&'m Joint], problems: &mut Problems) -> BTreeSet<&'m str> {
     let limited = |joint: &Joint| robot::Joint {
         limits: Limits {
@@ -64,28 +54,24 @@ pub(crate) fn without_room<'m>(joints: &[&'m Joint], problems: &mut Problems) ->
     let mut narrowed: BTreeMap<usize, robot::Joint> = BTreeMap::new();
     let mut names = BTreeSet::new();
     for (row, joint) in joints.iter().enumerate() {
-        let Some(relation) = follows(joint, joints) else {
+        let Some((leader, multiplier, offset)) = follows(joint, joints) else {
             continue;
         };
         let follower = Follower {
             row,
-            leader: relation.leader,
-            multiplier: relation.multiplier.clone(),
-            offset: relation.offset,
+            leader,
+            multiplier: multiplier.clone(),
+            offset,
             joint: limited(joint),
         };
-        let leader = narrowed
-            .entry(relation.leader)
-            .or_insert_with(|| limited(joints[relation.leader]));
-        let before = leader.clone();
-        if follower.narrow(leader).is_none() {
-            *leader = before;
-            let leader = joints[relation.leader].name.as_str();
-            let at = joint
-                .position
-                .as_ref()
-                .map_or(&joint.at, |[low, _]| &low.at);
-            problems.say("no_room", at, &[&joint.name, &leader]);
+        let entry = narrowed.entry(leader);
+        let leading = entry.or_insert_with(|| limited(joints[leader]));
+        let before = leading.clone();
+        if follower.narrow(leading).is_none() {
+            *leading = before;
+            let position = joint.position.as_ref();
+            let at = position.map_or(&joint.at, |[low, _]| &low.at);
+            problems.report("no_room", at, &[&joint.name, &joints[leader].name]);
             names.insert(joint.name.as_str());
         }
     }

@@ -68,13 +68,13 @@ impl Text {
             .map(|text| (first, text))
             .or_else(|why| read(&second).map(|text| (second, text)).map_err(|_| why));
         match source {
-            _ if name.is_empty() => problems.say("include_without_file", at, &[]),
-            Err(why) => problems.say("include_unread", at, &[&name, &why]),
+            _ if name.is_empty() => problems.report("include_without_file", at, &[]),
+            Err(why) => problems.report("include_unread", at, &[&name, &why]),
             Ok((path, _)) if paths.contains(&path) || self.count() == MAX_FILES => {
-                problems.say("include_twice", at, &[&name, &MAX_FILES]);
+                problems.report("include_twice", at, &[&name, &MAX_FILES]);
             }
             Ok((_, text)) if self.as_str().len() + text.len() > MAX_BYTES => {
-                problems.say("include_too_long", at, &[&name, &MAX_MIB]);
+                problems.report("include_too_long", at, &[&name, &MAX_MIB]);
             }
             Ok((path, text)) => {
                 paths.insert(path.clone());

@@ -52,7 +52,7 @@ use dalembert_model::robot::Robot;
 pub use args::ChainArgs;
 pub use arms::{SharedJoints, arms};
 pub use change::{Change, Displacement, Motion};
-use merge::Tree;
+use keywords::{MJCF, URDF};
 use model::Model;
 pub use open::{OpenError, OpenRobot, first_bytes, is_model, open, open_text, read_robot};
 use problems::Problems;
@@ -141,17 +141,13 @@ pub fn import_text(text: &Text, options: &Options) -> Result<Import, Diagnostics
 fn read_model(text: &Text, options: &Options, problems: &mut Problems) -> Option<Model> {
     let root = text.elements(problems)?;
     let is_mjcf = root.tag == "mujoco";
-    let table = if is_mjcf {
-        &keywords::MJCF
-    } else {
-        &keywords::URDF
-    };
+    let table = if is_mjcf { &MJCF } else { &URDF };
     let mut reader = Reader::new(problems, table);
     let model = match is_mjcf {
         true => mjcf::read(&root, &mut reader),
         false => urdf::read(&root, &mut reader),
     };
-    reader.say_unknown();
+    reader.report_unknown();
     let mut model = model?;
     select::check_names(&model, options, problems);
     if options.ignore_ties {
@@ -168,9 +164,8 @@ fn import_model(
 ) -> Result<Import, Diagnostics> {
     let selected =
         model.and_then(|model| Some((model, select::select(model, options, &mut problems)?)));
-    let parts = selected
-        .as_ref()
-        .map(|(model, selection)| selection.parts(model));
+    let chosen = selected.as_ref();
+    let parts = chosen.map(|(model, selection)| selection.parts(model));
     // Where the parts of the robot are unknown, all mistakes count.
     problems.settle(|part| parts.as_ref().is_none_or(|parts| parts.contains(&part)));
     let imported =
@@ -181,14 +176,6 @@ fn import_model(
         // Nothing is given up without an error.
         None => Err(Diagnostics(notes)),
     }
-}
-
-/// A model with some of its numbers taken for others.
-struct Variant {
-    model: Model,
-    snaps: Vec<Snap>,
-    tree: Tree,
-    change: Change,
 }
 
 fn imported(
@@ -202,7 +189,11 @@ fn imported(
         return None;
     }
     let text = problems.text;
-    let take = |reach: Reach| {
+    let mut reach = match options.exact {
+        true => Reach::None,
+        false => Reach::All,
+    };
+    let (model, snaps, tree, change) = loop {
         let (model, snaps) = snap::snapped(model, selection, reach);
         let tree = match snaps.is_empty() {
             true => as_written.clone(),
@@ -210,40 +201,27 @@ fn imported(
             false => merge::merged(&model, selection, &mut Problems::of(text))?,
         };
         let change = change::bound(&as_written, &tree, &model, options);
-        Some(Variant {
-            model,
-            snaps,
-            tree,
-            change,
-        })
+        let is_felt = !options.snap && change.relative() > FELT;
+        reach = match reach {
+            Reach::All if is_felt => {
+                problems.report("digits_stay", &model.at, &[&change]);
+                Reach::Near
+            }
+            Reach::Near if is_felt => Reach::None,
+            _ => break (model, snaps, tree, change),
+        };
     };
-    let mut stays = options.exact;
-    let mut taken = take(if stays { Reach::None } else { Reach::All })?;
-    if !options.snap && taken.change.relative() > FELT {
-        problems.say("digits_stay", &model.at, &[&taken.change]);
-        stays = true;
-        taken = take(Reach::Near)?;
-        if taken.change.relative() > FELT {
-            taken = take(Reach::None)?;
-        }
-    }
-    let Variant {
-        model,
-        snaps,
-        tree,
-        change,
-    } = taken;
+    let stays = reach != Reach::All;
     let text = write::file(&model, selection, &tree, (&snaps, stays), options, problems);
     let robot = match robot_file::parse(&text) {
         Ok(reading) => reading.robot,
         Err(errors) => {
             for error in &errors.0 {
-                let line = text
-                    .lines()
-                    .nth(error.line().unwrap_or(1).saturating_sub(1));
-                let (line, help) = (line.unwrap_or_default(), error.help.as_deref());
+                let index = error.line().unwrap_or(1).saturating_sub(1);
+                let line = text.lines().nth(index).unwrap_or_default();
+                let help = error.help.as_deref();
                 let words: [&dyn Display; 3] = [&error.message, &line, &help.unwrap_or_default()];
-                problems.say("refused", &(0..0), &words);
+                problems.report("refused", &(0..0), &words);
             }
             return None;
         }

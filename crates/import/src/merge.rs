@@ -52,17 +52,13 @@ pub(crate) struct Frame {
     pub(crate) placement: Placement,
 }
 
-/// Merges the links of a robot that are fixed to each other.
 pub(crate) fn merged(
     model: &Model,
     selection: &Selection,
     problems: &mut Problems,
 ) -> Option<Tree> {
-    let sizes = selection
-        .order
-        .iter()
-        .map(|joint| model.joints[*joint].origin.placement().size());
-    let size = size_of(sizes.sum());
+    let length = |joint: &usize| model.joints[*joint].origin.placement().size();
+    let size = size_of(selection.order.iter().map(length).sum());
     let mut bodies: Vec<Branch> = Vec::new();
     // For each link: its body, its pose in the body, and true if that is the body's frame.
     let mut places: BTreeMap<usize, (Option<usize>, Columns<Wide>, bool)> = BTreeMap::new();
@@ -98,10 +94,8 @@ pub(crate) fn merged(
     let mut good = true;
     let mut base = selection.floats.then(|| combined(&[]));
     let of_base = base.iter_mut().map(|body| (None, body));
-    let of_joints = bodies
-        .iter_mut()
-        .enumerate()
-        .map(|(index, branch)| (Some(index), &mut branch.body));
+    let branches = bodies.iter_mut().enumerate();
+    let of_joints = branches.map(|(index, branch)| (Some(index), &mut branch.body));
     for (index, merged) in of_base.chain(of_joints) {
         let mut parts = Vec::new();
         for (link, (_, way, _)) in places.iter().filter(|(_, (body, ..))| *body == index) {
@@ -136,20 +130,16 @@ pub(crate) fn merged(
         let tensor = &branch.body.inertia.rows();
         branch.body.mass.is_zero() && tensor.iter().flatten().all(Zero::is_zero)
     };
-    let empty: Vec<&Link> = bodies
-        .iter()
-        .filter(has_nothing)
-        .map(|branch| &model.links[model.ends[branch.joint][1]])
-        .filter(|link| link.role == Role::Body)
-        .collect();
+    let branches = bodies.iter().filter(has_nothing);
+    let links = branches.map(|branch| &model.links[model.ends[branch.joint][1]]);
+    let empty: Vec<&Link> = links.filter(|link| link.role == Role::Body).collect();
     if let Some(first) = empty.first() {
         let names: Vec<&str> = empty.iter().map(|link| link.name.as_str()).collect();
-        let id = if names.len() == 1 {
-            "massless"
-        } else {
-            "massless_links"
+        let id = match names.len() {
+            1 => "massless",
+            _ => "massless_links",
         };
-        problems.say(id, &first.at, &[&names.join("`, `")]);
+        problems.report(id, &first.at, &[&names.join("`, `")]);
     }
     let ends = selection.tips.iter().filter_map(|tip| {
         let (body, way, _) = places.get(tip)?;
@@ -177,14 +167,10 @@ impl Tree {
 
     /// Returns the hand in the frame of the last body, if all bodies lie on one chain.
     pub(crate) fn hand(&self) -> Option<&Placement> {
-        let last = self
-            .bodies
-            .len()
-            .checked_sub(1)
-            .filter(|_| !self.is_placed())?;
-        let mut ends = self.ends.iter();
-        ends.find(|(body, _)| *body == last)
-            .map(|(_, placement)| placement)
+        let place = self.bodies.len().checked_sub(1);
+        let last = place.filter(|_| !self.is_placed())?;
+        let (_, placement) = self.ends.iter().find(|(body, _)| *body == last)?;
+        Some(placement)
     }
 }
 
@@ -203,16 +189,12 @@ fn possible(
     let at = &inertial.inertia.xx.at;
     let words: [&dyn Display; 2] = [&link.name, &defect.message()];
     if defect != Defect::NegativeMoment {
-        problems.say("impossible", at, &words);
+        problems.report("impossible", at, &words);
         return Some(exact);
     }
     let rows = exact.rows();
-    let largest = rows
-        .iter()
-        .flatten()
-        .map(Signed::abs)
-        .max()
-        .unwrap_or_default();
+    let entries = rows.iter().flatten().map(Signed::abs);
+    let largest = entries.max().unwrap_or_default();
     let dust = largest.max(&inertial.mass.value * size * size) * power(NOTHING);
     let swept = exact.map(|entry| match entry.abs() <= dust {
         true => Rational::zero(),
@@ -224,7 +206,7 @@ fn possible(
     };
     let inertia = [swept, lifted].into_iter().find(is_possible);
     let id = inertia.as_ref().map_or("negative_moment", |_| "dust");
-    problems.say(id, at, &words);
+    problems.report(id, at, &words);
     inertia
 }
 
@@ -302,10 +284,8 @@ mod tests {
     /// Two arms on one torso are a tree, whose branches are those of each arm by itself.
     #[test]
     fn several_tips_make_a_tree() {
-        let path = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../../gallery/urdf/baxter.urdf"
-        );
+        let folder = env!("CARGO_MANIFEST_DIR");
+        let path = format!("{folder}/../../gallery/urdf/baxter.urdf");
         let text = Text::of("baxter", std::fs::read_to_string(path).unwrap());
         let tree = |tips: &[&str]| {
             let mut problems = Problems::of(&text);
@@ -322,23 +302,15 @@ mod tests {
         let both = tree(&hands);
         assert_eq!((both.bodies.len(), both.ends.len()), (14, 2));
         assert!(both.branches() && both.hand().is_none());
-        assert_eq!(
-            both.bodies
-                .iter()
-                .filter(|body| body.parent.is_none())
-                .count(),
-            2
-        );
+        let first = both.bodies.iter().filter(|body| body.parent.is_none());
+        assert_eq!(first.count(), 2);
         for (tip, (_, tool)) in hands.iter().zip(&both.ends) {
             let alone = tree(&[tip]);
             assert_eq!((alone.bodies.len(), alone.hand()), (7, Some(tool)));
             for (index, body) in alone.bodies.iter().enumerate() {
                 assert_eq!(body.parent, index.checked_sub(1));
-                let same = both
-                    .bodies
-                    .iter()
-                    .find(|other| other.joint == body.joint)
-                    .unwrap();
+                let mut others = both.bodies.iter();
+                let same = others.find(|other| other.joint == body.joint).unwrap();
                 assert_eq!((&same.body, &same.placement), (&body.body, &body.placement));
                 let parent = |tree: &Tree, of: &Branch| Some(tree.bodies[of.parent?].joint);
                 assert_eq!(parent(&both, same), parent(&alone, body));

@@ -80,9 +80,8 @@ pub(crate) struct Joint {
     pub(crate) velocity: Option<Number>,
     pub(crate) acceleration: Option<Number>,
     pub(crate) damping: Option<Number>,
-    /// Coulomb friction, which is not imported.
+    /// Coulomb friction and a spring, which are not imported.
     pub(crate) friction: Option<Number>,
-    /// A spring, which is not imported.
     pub(crate) spring: Option<Number>,
     pub(crate) armature: Rational,
     /// The inertia of each rotor, and its reduction.
@@ -192,7 +191,6 @@ impl Number {
         Value::new(parse_decimal(text).unwrap_or_default(), text, at)
     }
 
-    /// Returns a number that was computed.
     pub(crate) fn of(value: &Rational, at: &Span) -> Number {
         Value::new(value.clone(), number(value), at)
     }
@@ -213,6 +211,17 @@ impl Inertial {
     }
 }
 
+impl Link {
+    pub(crate) fn new(name: String, at: &Span) -> Link {
+        let at = at.clone();
+        Link {
+            name,
+            at,
+            ..Link::default()
+        }
+    }
+}
+
 /// Returns a limit that bounds something.
 pub(crate) fn positive(limit: &Option<Number>) -> Option<&Number> {
     limit.as_ref().filter(|limit| limit.value.is_positive())
@@ -228,12 +237,7 @@ impl Origin {
 }
 
 impl Joint {
-    pub(crate) fn fixed(
-        parent: (String, Span),
-        child: (String, Span),
-        at: &Span,
-        origin: Origin,
-    ) -> Joint {
+    pub(crate) fn fixed([parent, child]: [(String, Span); 2], at: &Span, origin: Origin) -> Joint {
         Joint {
             name: format!("to {}", child.0),
             axis: Number::constants(["0", "0", "1"], at),
@@ -268,9 +272,8 @@ impl Model {
     pub(crate) fn moving(&self) -> Vec<usize> {
         let joints = || (0..self.joints.len()).rev();
         let is_root = |link: usize| self.ends.iter().all(|[_, child]| *child != link);
-        let mut open: Vec<usize> = joints()
-            .filter(|joint| is_root(self.ends[*joint][0]))
-            .collect();
+        let is_first = |joint: &usize| is_root(self.ends[*joint][0]);
+        let mut open: Vec<usize> = joints().filter(is_first).collect();
         let mut visits = std::collections::BTreeSet::new();
         let mut moving = Vec::new();
         while let Some(joint) = open.pop() {
@@ -288,7 +291,7 @@ impl Model {
             let place = self.link(name);
             if place.is_none() && !name.is_empty() {
                 let help = instead(name, self.links.iter().map(|link| &link.name));
-                problems.say("no_link", at, &[name, &help]);
+                problems.report("no_link", at, &[name, &help]);
             }
             place.unwrap_or_default()
         };
@@ -304,9 +307,15 @@ impl Model {
             if let Some(other) = above.and_then(|above| above.replace(joint))
                 && links.count() == 1
             {
-                problems.say("hangs_already", at, &[link, &self.joints[other].name]);
+                problems.report("hangs_already", at, &[link, &self.joints[other].name]);
             }
         }
+    }
+
+    /// Returns the joints from a link up to the root, or once around a circle.
+    pub(crate) fn way(&self, link: usize) -> impl Iterator<Item = usize> {
+        let up = |joint: &usize| self.above[self.ends[*joint][0]];
+        std::iter::successors(self.above[link], up).take(self.ends.len())
     }
 
     pub(crate) fn link(&self, name: &str) -> Option<usize> {
@@ -324,8 +333,7 @@ impl Model {
 
     /// Leaves out all ties, with a note.
     pub(crate) fn untie(&mut self, problems: &mut Problems) {
-        let mut ties: Vec<(Span, String)> = Vec::new();
-        ties.extend(self.ties.drain(..).map(|tie| (tie.at, tie.name)));
+        let mut ties: Vec<_> = self.ties.drain(..).map(|tie| (tie.at, tie.name)).collect();
         for joint in &mut self.joints {
             if let Some(mimic) = joint.mimic.take_if(|mimic| mimic.line.is_none()) {
                 ties.push((mimic.at, format!("the equality of joint `{}`", joint.name)));
@@ -333,7 +341,7 @@ impl Model {
         }
         if let Some((first, _)) = ties.first() {
             let names: Vec<&str> = ties.iter().map(|(_, name)| name.as_str()).collect();
-            problems.say("ignored_ties", first, &[&names.join(", ")]);
+            problems.report("ignored_ties", first, &[&names.join(", ")]);
         }
     }
 }
@@ -344,8 +352,12 @@ pub(crate) fn least<const N: usize>(limits: [Option<Number>; N]) -> Option<Numbe
     limits.min_by(|one, other| one.value.cmp(&other.value))
 }
 
+pub(crate) fn or_zero(number: Option<Number>) -> Rational {
+    number.map_or_else(Rational::zero, |number| number.value)
+}
+
 /// Returns the sum of two numbers, of which the first may be missing.
 pub(crate) fn added(sum: Option<Number>, more: Number) -> Number {
-    let before = sum.map_or_else(Rational::zero, |sum| sum.value);
+    let before = or_zero(sum);
     more.map(|value| before + value)
 }

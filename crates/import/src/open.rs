@@ -58,23 +58,20 @@ pub fn open(path: &Path, options: &Options) -> Result<OpenRobot, OpenError> {
 pub fn open_text(path: &Path) -> Result<Text, OpenError> {
     let shown = path.display().to_string();
     let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(OpenError::System)?;
-    let wrong = |why: &str, help: &str| {
-        let error = Diagnostic::error(format!("`{shown}` {why}")).with_help(help);
+    let wrong = |(why, help): (String, String)| {
+        let error = Diagnostic::error(format!("`{shown}` {why}")).with_help(&help);
         OpenError::Wrong(error.into())
     };
     if bytes.starts_with(b"\xff\xfe<") || bytes.starts_with(b"\xfe\xff\0<") {
-        let (why, help) = in_encoding("UTF-16", &shown);
-        return Err(wrong(&why, &help));
+        return Err(wrong(in_encoding("UTF-16", &shown)));
     }
     if is_model(&bytes) {
         if bytes.len() > MAX_BYTES {
             let why = format!("is longer than {MAX_MIB} MiB, the most that is read");
-            return Err(wrong(&why, ""));
+            return Err(wrong((why, String::new())));
         }
-        let text = String::from_utf8(bytes).map_err(|_| {
-            let (why, help) = in_encoding("ISO-8859-1", &shown);
-            wrong(&why, &help)
-        })?;
+        let decoded = String::from_utf8(bytes);
+        let text = decoded.map_err(|_| wrong(in_encoding("ISO-8859-1", &shown)))?;
         let file = Text::of_file(&shown, &text);
         return file.with_includes(path, included).map_err(OpenError::Wrong);
     }
@@ -84,10 +81,9 @@ pub fn open_text(path: &Path) -> Result<Text, OpenError> {
         return Ok(Text::of(&shown, text.to_owned()));
     }
     // The reader of robot files says where it is not UTF-8, or too long.
-    let errors = read::parse_bytes(&bytes).err();
-    Err(match errors {
-        Some(errors) => OpenError::Wrong(errors.in_file(&shown)),
-        None => wrong("is not a robot file", ""),
+    Err(match read::parse_bytes(&bytes) {
+        Err(errors) => OpenError::Wrong(errors.in_file(&shown)),
+        Ok(_) => wrong(("is not a robot file".to_owned(), String::new())),
     })
 }
 
@@ -98,15 +94,13 @@ pub fn open_text(path: &Path) -> Result<Text, OpenError> {
 pub fn read_robot(source: Text, options: &Options) -> Result<OpenRobot, Diagnostics> {
     let imported = match is_model(source.as_str().as_bytes()) {
         false => {
-            options.refuse_chain(source.name())?;
+            refuse_chain(options, source.name())?;
             None
         }
         true => Some(import_text(&source, options)?),
     };
-    let robot_file = imported
-        .as_ref()
-        .map_or(source.as_str(), |imported| &imported.text)
-        .to_owned();
+    let text = imported.as_ref().map(|imported| imported.text.as_str());
+    let robot_file = text.unwrap_or(source.as_str()).to_owned();
     // An imported robot file was already read once.
     let mut reading = read::parse(&robot_file).map_err(|errors| errors.in_file(source.name()))?;
     reading.notes = Diagnostics(reading.notes).in_file(source.name()).0;
@@ -124,27 +118,21 @@ fn in_encoding(encoding: &str, name: &str) -> (String, String) {
     (why, help)
 }
 
-impl Options {
-    fn refuse_chain(&self, name: &str) -> Result<(), Diagnostic> {
-        let options = [
-            ("base", self.base.is_some()),
-            ("tip", !self.tips.is_empty()),
-            ("tree", self.tree),
-            ("floating", self.floating),
-            ("lock", !self.lock.is_empty()),
-            ("without", !self.without.is_empty()),
-            ("ignore-ties", self.ignore_ties),
-        ];
-        match options.into_iter().find(|(_, is_set)| *is_set) {
-            None => Ok(()),
-            Some((option, _)) => {
-                let message =
-                    format!("--{option}: `{name}` is a robot file, and not a URDF or an MJCF");
-                let help = "leave it out: a robot file is one robot";
-                Err(Diagnostic::error(message).with_help(help))
-            }
-        }
-    }
+fn refuse_chain(options: &Options, name: &str) -> Result<(), Diagnostic> {
+    let flags = [
+        ("base", options.base.is_some()),
+        ("tip", !options.tips.is_empty()),
+        ("tree", options.tree),
+        ("floating", options.floating),
+        ("lock", !options.lock.is_empty()),
+        ("without", !options.without.is_empty()),
+        ("ignore-ties", options.ignore_ties),
+    ];
+    let Some((option, _)) = flags.into_iter().find(|(_, is_set)| *is_set) else {
+        return Ok(());
+    };
+    let message = format!("--{option}: `{name}` is a robot file, and not a URDF or an MJCF");
+    Err(Diagnostic::error(message).with_help("leave it out: a robot file is one robot"))
 }
 
 /// True if a text is a model's: XML, and not TOML.

@@ -39,18 +39,22 @@ pub(crate) struct Pose {
     at: Span,
 }
 
-fn moved_by(by: &[Rational; 3]) -> Columns<Wide> {
+fn moved_by(origin: Vector<Wide>) -> Columns<Wide> {
     Columns {
-        origin: by.each_ref().map(Wide::from_rational),
+        origin,
         ..Columns::identity()
     }
+}
+
+fn wide(vector: &[Rational; 3]) -> Vector<Wide> {
+    vector.each_ref().map(Wide::from_rational)
 }
 
 impl Pose {
     /// Returns the pose at a position with an orientation.
     pub(crate) fn of(xyz: [Number; 3], orientation: Both, at: &Span) -> Pose {
         let values = xyz.each_ref().map(|x| x.value.clone());
-        let origin = values.each_ref().map(Wide::from_rational);
+        let origin = wide(&values);
         Pose {
             both: orientation.map(|turned| Columns { origin, ..turned }),
             size: values.iter().map(Signed::abs).sum(),
@@ -84,7 +88,7 @@ impl Pose {
             return self.clone();
         }
         let size = by.iter().map(Signed::abs).sum::<Rational>();
-        let shifted = moved_by(by);
+        let shifted = moved_by(wide(by));
         Pose {
             both: self.both.each_ref().map(|pose| pose.then(&shifted)),
             size: &self.size + size,
@@ -108,17 +112,14 @@ impl Pose {
     /// Returns a direction in the axes of the frame that this one is in.
     pub(crate) fn rotate(&self, direction: &[Number; 3]) -> [Number; 3] {
         let wide = direction.each_ref().map(|x| Wide::from_rational(&x.value));
-        let along = Columns {
-            origin: self.both[1].rotate(&wide),
-            ..Columns::identity()
-        };
+        let along = moved_by(self.both[1].rotate(&wide));
         let xyz = placement(&along, &Rational::one()).xyz;
         std::array::from_fn(|i| direction[i].clone().map(|_| xyz[i].clone()))
     }
 
     pub(crate) fn apply(&self, point: &[Rational; 3]) -> [Rational; 3] {
         let size = &self.size + point.iter().map(Signed::abs).sum::<Rational>();
-        placement(&self.both[1].then(&moved_by(point)), &size_of(size)).xyz
+        placement(&self.both[1].then(&moved_by(wide(point))), &size_of(size)).xyz
     }
 
     pub(crate) fn origin(&self) -> Origin {
@@ -156,7 +157,7 @@ fn short(angle: &Angle) -> String {
 }
 
 /// Returns the rotation of w, x, y, z, of any length.
-pub(crate) fn of_quaternion(numbers: &[Number; 4]) -> Option<Both> {
+pub(crate) fn of_quaternion(numbers: [Number; 4]) -> Option<Both> {
     let [w, x, y, z] = numbers.each_ref().map(|number| &number.value);
     let square: Rational = [w, x, y, z].into_iter().map(|a| a * a).sum();
     if square.is_zero() {
@@ -173,10 +174,10 @@ pub(crate) fn of_quaternion(numbers: &[Number; 4]) -> Option<Both> {
         [off(&xy - &wz), diagonal(y, x, z), off(&yz + &wx)],
         [off(&xz + &wy), off(&yz - &wx), diagonal(z, x, y)],
     ];
-    Some(by_digits(axes, numbers))
+    Some(by_digits(axes, &numbers))
 }
 
-pub(crate) fn of_axes(numbers: &[Number; 6]) -> Option<Both> {
+pub(crate) fn of_axes(numbers: [Number; 6]) -> Option<Both> {
     let [x, y] = [0, 3].map(|at| {
         let part = [at, at + 1, at + 2].map(|i| numbers[i].value.clone());
         direction(&part)
@@ -189,11 +190,11 @@ pub(crate) fn of_axes(numbers: &[Number; 6]) -> Option<Both> {
     }
     let y = unit(&across)?;
     let z = cross(&x, &y);
-    Some(by_digits([x, y, z], numbers))
+    Some(by_digits([x, y, z], &numbers))
 }
 
 /// Returns the shortest rotation that turns z to a direction.
-pub(crate) fn of_third_axis(axis: &[Number; 3]) -> Option<Both> {
+pub(crate) fn of_third_axis(axis: [Number; 3]) -> Option<Both> {
     let z = direction(&axis.each_ref().map(|x| x.value.clone()))?;
     let [x, y] = [&z[0], &z[1]];
     let level = length(&[*x, *y, Wide::zero()]);
@@ -201,7 +202,7 @@ pub(crate) fn of_third_axis(axis: &[Number; 3]) -> Option<Both> {
     let about = unit(&[y.neg(), *x, Wide::zero()]);
     // Upside down there are many shortest ones: about x.
     let about = about.unwrap_or([Wide::one(), Wide::zero(), Wide::zero()]);
-    Some(by_digits(turned(&about, &angle).axes, axis))
+    Some(by_digits(turned(&about, &angle).axes, &axis))
 }
 
 /// Pairs a rotation with its intended one. The tolerance is that of angles, because many

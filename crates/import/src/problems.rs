@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::sync::LazyLock;
 
-use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place, Severity};
-use dalembert_model::read::closest;
+use dalembert_model::diagnostic::{Diagnostic, Diagnostics, Place, Severity, closest};
 
 use crate::text::{Span, Text};
 
@@ -17,29 +16,27 @@ pub(crate) const MAX_NAMES: usize = 30;
 /// All messages, by their names. `{0}`, `{1}` … stand for words of a place; a message with `{of}`
 /// is said once of all joints or links that it is about.
 static MESSAGES: LazyLock<BTreeMap<&str, Message>> = LazyLock::new(|| {
-    let lines = include_str!("messages.tsv").lines().skip(1);
-    let rows =
-        lines.filter_map(|line| <[&str; 5]>::try_from(Vec::from_iter(line.split('\t'))).ok());
-    let rows = rows.map(|[id, kind, idle, text, help]| {
-        let severity = match kind {
-            "error" => Severity::Error,
-            "warning" => Severity::Warning,
-            _ => Severity::Note,
-        };
-        let differs = kind == "difference";
-        (
-            id,
-            Message {
-                severity,
-                differs,
-                idle,
-                text,
-                help,
+    let rows = include_str!("messages.tsv").lines().skip(1);
+    let messages = rows.filter_map(|row| {
+        let [id, kind, idle, text, help] = Vec::from_iter(row.split('\t')).try_into().ok()?;
+        let message = Message {
+            severity: match kind {
+                "error" => Severity::Error,
+                "warning" => Severity::Warning,
+                _ => Severity::Note,
             },
-        )
+            differs: kind == "difference",
+            idle,
+            text,
+            help,
+        };
+        Some((id, message))
     });
-    rows.collect()
+    messages.collect()
 });
+
+/// The words of a place, which a message shows.
+pub(crate) type Words<'w> = [&'w dyn Display];
 
 #[derive(Debug)]
 pub(crate) struct Message {
@@ -53,14 +50,13 @@ pub(crate) struct Message {
 }
 
 impl Message {
-    /// Finds a message by its id.
     pub(crate) fn of(id: &str) -> Option<&'static Message> {
         MESSAGES.get(id)
     }
 }
 
 /// Replaces `{0}`, `{1}` … by words.
-fn filled(template: &str, words: &[&dyn Display]) -> String {
+fn filled(template: &str, words: &Words) -> String {
     let mut parts = template.split('{');
     let mut text = parts.next().unwrap_or_default().to_owned();
     for part in parts {
@@ -88,20 +84,6 @@ pub(crate) struct Problem {
 }
 
 impl Problem {
-    fn new(message: &'static Message, at: &Span, words: &[&dyn Display]) -> Problem {
-        let is_of_several = message.text.contains("{of}");
-        let of = words.iter().take(usize::from(is_of_several));
-        Problem {
-            message,
-            at: at.clone(),
-            text: filled(message.text, words),
-            of: of.map(ToString::to_string).next(),
-            more: 0,
-            help: filled(message.help, words),
-            part: None,
-        }
-    }
-
     fn is_error(&self) -> bool {
         self.message.severity == Severity::Error
     }
@@ -132,38 +114,37 @@ pub(crate) struct Problems<'t> {
 
 impl<'t> Problems<'t> {
     pub(crate) fn of(text: &'t Text) -> Self {
-        let problems = Vec::new();
         Problems {
             text,
-            problems,
+            problems: Vec::new(),
             more: 0,
             part: None,
         }
     }
 
-    /// Says a message of the table.
-    pub(crate) fn say(&mut self, id: &str, at: &Span, words: &[&dyn Display]) {
+    pub(crate) fn report(&mut self, id: &str, at: &Span, words: &Words) {
         if let Some(message) = Message::of(id).or(Message::of("too_complex")) {
-            self.say_message(message, at, words);
+            self.report_message(message, at, words);
         }
     }
 
-    pub(crate) fn say_message(
-        &mut self,
-        message: &'static Message,
-        at: &Span,
-        words: &[&dyn Display],
-    ) {
-        let part = self.part;
+    pub(crate) fn report_message(&mut self, message: &'static Message, at: &Span, words: &Words) {
+        let is_of_several = message.text.contains("{of}");
+        let of = words.first().filter(|_| is_of_several);
         self.add(Problem {
-            part,
-            ..Problem::new(message, at, words)
+            message,
+            at: at.clone(),
+            text: filled(message.text, words),
+            of: of.map(ToString::to_string),
+            more: 0,
+            help: filled(message.help, words),
+            part: self.part,
         });
     }
 
-    /// Says an error where a value cannot be returned.
-    pub(crate) fn refuse<T>(&mut self, id: &str, at: &Span, words: &[&dyn Display]) -> Option<T> {
-        self.say(id, at, words);
+    /// Reports an error where a value cannot be returned.
+    pub(crate) fn refuse<T>(&mut self, id: &str, at: &Span, words: &Words) -> Option<T> {
+        self.report(id, at, words);
         None
     }
 
@@ -177,11 +158,8 @@ impl<'t> Problems<'t> {
         };
         let count = self.problems.iter().filter(is_of_kind).count();
         let has_room = count < MAX && self.problems.len() < MAX_OF_ALL;
-        match self
-            .problems
-            .iter_mut()
-            .find(|other| other.is_like(&problem))
-        {
+        let mut others = self.problems.iter_mut();
+        match others.find(|other| other.is_like(&problem)) {
             Some(same) => same.more += 1 + problem.more,
             None if has_room => self.problems.push(problem),
             None => self.more += usize::from(problem.is_error()),
@@ -204,7 +182,7 @@ impl<'t> Problems<'t> {
             if part.is_none_or(&is_part) {
                 self.add(problem);
             } else if problem.is_error() {
-                self.say("outside", &problem.at, &[&problem.text(), &problem.help]);
+                self.report("outside", &problem.at, &[&problem.text(), &problem.help]);
             }
         }
     }
@@ -225,29 +203,24 @@ impl<'t> Problems<'t> {
 
     /// Returns the differences, then the other notes, each in the order of the file; or the errors
     /// alone.
-    pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
+    pub(crate) fn finish(self) -> Result<Vec<Diagnostic>, Diagnostics> {
         let has_errors = self.has_errors();
-        self.problems
-            .retain(|problem| problem.is_error() || !has_errors);
-        self.problems
-            .sort_by_key(|problem| (!problem.message.differs, problem.at.start));
-        let mut diagnostics: Vec<Diagnostic> = self
-            .problems
-            .iter()
-            .map(|problem| {
-                Diagnostic::new(problem.message.severity, problem.text())
-                    .with_help(&problem.help)
-                    .at(Place::Text(Box::new(self.text.excerpt(&problem.at))))
-            })
-            .collect();
+        let mut problems = self.problems;
+        problems.retain(|problem| problem.is_error() || !has_errors);
+        problems.sort_by_key(|problem| (!problem.message.differs, problem.at.start));
+        let mut diagnostics = Vec::new();
+        for problem in &problems {
+            let place = Place::Text(Box::new(self.text.excerpt(&problem.at)));
+            let diagnostic = Diagnostic::new(problem.message.severity, problem.text());
+            diagnostics.push(diagnostic.with_help(&problem.help).at(place));
+        }
         if let (1.., Some(last)) = (self.more, diagnostics.last_mut()) {
             last.severity = Severity::Error;
             last.message += &format!(" (and {} more errors)", self.more);
         }
-        if has_errors {
-            Err(Diagnostics(diagnostics))
-        } else {
-            Ok(diagnostics)
+        match has_errors {
+            true => Err(Diagnostics(diagnostics)),
+            false => Ok(diagnostics),
         }
     }
 }
@@ -280,35 +253,29 @@ mod tests {
     use std::path::Path;
 
     fn texts(folder: &Path) -> String {
-        let entries = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().path());
-        let texts = entries.map(
-            |path| match path.extension().is_some_and(|end| end == "rs") {
-                true => std::fs::read_to_string(&path).unwrap(),
-                false if path.is_dir() => texts(&path),
-                false => String::new(),
-            },
-        );
+        let entries = std::fs::read_dir(folder).unwrap();
+        let paths = entries.map(|entry| entry.unwrap().path());
+        let texts = paths.map(|path| match path.extension() {
+            Some(end) if end == "rs" => std::fs::read_to_string(&path).unwrap(),
+            _ if path.is_dir() => texts(&path),
+            _ => String::new(),
+        });
         texts.collect()
     }
 
     /// Every message is said somewhere, and every one that is said is in the table.
     #[test]
     fn the_table_has_all_messages() {
-        let source: String = texts(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"))
-            .split_whitespace()
-            .collect();
+        let files = texts(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"));
+        let source: String = files.split_whitespace().collect();
         let keywords = |id: &&&str| id.contains(' ');
         for id in MESSAGES.keys().filter(|id| !keywords(id)) {
             assert!(source.contains(&format!("\"{id}\"")), "nobody says {id}");
         }
         let has = |id: &str| MESSAGES.keys().any(|known| known.replace(' ', "") == id);
-        for call in ["say(\"", "refuse(\""] {
-            let said = source
-                .split(call)
-                .skip(1)
-                .map(|rest| rest.split('"').next().unwrap());
+        for call in ["report(\"", "refuse(\""] {
+            let calls = source.split(call).skip(1);
+            let said = calls.map(|rest| rest.split('"').next().unwrap());
             let unknown: Vec<&str> = said.filter(|id| !has(id) && !id.contains('\\')).collect();
             assert!(unknown.is_empty(), "the table lacks {unknown:?}");
         }

@@ -1,15 +1,15 @@
 //! Words and numbers of attributes. A mistake is said once and a default stands in its place, so
 //! that reading goes on and finds all of them.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
 
 use dalembert_model::number::parse::parse_decimal;
 use num_traits::Signed;
 
 use crate::keywords::{Table, Verdict};
 use crate::model::{Number, Value};
-use crate::problems::{MAX, Message, Problems, instead};
+use crate::problems::{MAX, Message, Problems, Words, instead};
 use crate::text::Span;
 use crate::xml::{Attribute, Element};
 
@@ -25,31 +25,40 @@ pub(crate) struct Reader<'p, 't> {
 
 impl<'p, 't> Reader<'p, 't> {
     pub(crate) fn new(problems: &'p mut Problems<'t>, table: &'static Table) -> Self {
-        let unknown = BTreeMap::new();
         Reader {
             problems,
             table,
-            unknown,
+            unknown: BTreeMap::new(),
         }
     }
 
-    pub(crate) fn say(&mut self, id: &str, at: &Span, words: &[&dyn Display]) {
-        self.problems.say(id, at, words);
+    pub(crate) fn report(&mut self, id: &str, at: &Span, words: &Words) {
+        self.problems.report(id, at, words);
     }
 
-    /// Says an error where a value cannot be returned.
-    pub(crate) fn refuse<T>(&mut self, id: &str, at: &Span, words: &[&dyn Display]) -> Option<T> {
+    pub(crate) fn refuse<T>(&mut self, id: &str, at: &Span, words: &Words) -> Option<T> {
         self.problems.refuse(id, at, words)
     }
 
-    /// Says the names of an element, and of those inside, that are unknown or left out; `of` is the
-    /// joint or link that they are part of.
+    /// Reports the names of an element, and of those inside, that are unknown or left out; `of` is
+    /// the joint or link that they are part of.
     pub(crate) fn check(&mut self, parent: &str, element: &Element, of: &str) {
-        self.check_attributes(parent, element, of);
-        self.check_inside(parent, element, of, |_| true);
+        self.check_around(parent, element, of, |_| true);
     }
 
-    /// Says the elements inside one that are unknown or left out, and goes on inside those that
+    /// Reports the same, but goes on inside those elements alone that `enter` accepts.
+    pub(crate) fn check_around(
+        &mut self,
+        parent: &str,
+        element: &Element,
+        of: &str,
+        enter: impl Fn(&Element) -> bool,
+    ) {
+        self.check_attributes(parent, element, of);
+        self.check_inside(parent, element, of, enter);
+    }
+
+    /// Reports the elements inside one that are unknown or left out, and goes on inside those that
     /// `enter` accepts.
     pub(crate) fn check_inside(
         &mut self,
@@ -66,9 +75,8 @@ impl<'p, 't> Reader<'p, 't> {
             let listed = row.listed(&format!("<{tag}>"));
             match (listed, self.table.row(&element.tag, tag)) {
                 (Some(Verdict::LeftOut), _) => {
-                    let value = inside
-                        .content()
-                        .map_or("", |content| content.value.as_str());
+                    let content = inside.content();
+                    let value = content.map_or("", |content| content.value.as_str());
                     self.leave_out(&element.tag, tag, &inside.at, value, of);
                 }
                 (None, Some(below)) if below.verdict("*") == Verdict::LeftOut => {
@@ -108,10 +116,10 @@ impl<'p, 't> Reader<'p, 't> {
         *self.problems = original;
     }
 
-    /// Says a name that is left out, unless its value has no effect.
+    /// Reports a name that is left out, unless its value has no effect.
     fn leave_out(&mut self, tag: &str, name: &str, at: &Span, value: &str, of: &str) {
-        let message = Message::of(&format!("{tag} {name}")).or(Message::of("left out"));
-        let Some(message) = message else {
+        let message = Message::of(&format!("{tag} {name}"));
+        let Some(message) = message.or(Message::of("left out")) else {
             return;
         };
         let number = |word: &str| word.parse::<f64>().ok();
@@ -123,7 +131,7 @@ impl<'p, 't> Reader<'p, 't> {
             let element = format!("<{tag}>");
             let name = if name == "*" { &element } else { name };
             self.problems
-                .say_message(message, at, &[&of, &name, &value]);
+                .report_message(message, at, &[&of, &name, &value]);
         }
     }
 
@@ -132,30 +140,24 @@ impl<'p, 't> Reader<'p, 't> {
         entry.or_insert((at.clone(), 0)).1 += 1;
     }
 
-    /// Says the unknown names, each once.
-    pub(crate) fn say_unknown(&mut self) {
+    /// Reports the unknown names, each once.
+    pub(crate) fn report_unknown(&mut self) {
         for ((tag, name), (at, count)) in std::mem::take(&mut self.unknown).into_iter().take(MAX) {
-            let known = self
-                .table
-                .row_of(&tag)
-                .into_iter()
-                .flat_map(|row| &row.names[0]);
-            let help = instead(name.trim_matches(['<', '>', '`']), known.copied());
-            let help = if help.starts_with("did") {
-                help
-            } else {
-                String::new()
+            let row = self.table.row_of(&tag).into_iter();
+            let known = row.flat_map(|row| &row.names[0]);
+            let mut help = instead(name.trim_matches(['<', '>', '`']), known.copied());
+            if !help.starts_with("did") {
+                help.clear();
+            }
+            let times = match count {
+                ..=1 => String::new(),
+                _ => format!(", {count} times"),
             };
-            let times = if count > 1 {
-                format!(", {count} times")
-            } else {
-                String::new()
-            };
-            self.say("unknown", &at, &[&name, &tag, &times, &help]);
+            self.report("unknown", &at, &[&name, &tag, &times, &help]);
         }
     }
 
-    /// Returns a reader with another table, which says its problems in the same place.
+    /// Returns a reader with another table and the same problems.
     pub(crate) fn with(&mut self, table: &'static Table) -> Reader<'_, 't> {
         Reader::new(self.problems, table)
     }
@@ -168,7 +170,7 @@ impl<'p, 't> Reader<'p, 't> {
         {
             return (attribute.value.clone(), attribute.at.clone());
         }
-        self.say("no_attribute", &element.at, &[&element.tag, &key]);
+        self.report("no_attribute", &element.at, &[&element.tag, &key]);
         (String::new(), element.at.clone())
     }
 
@@ -187,7 +189,7 @@ impl<'p, 't> Reader<'p, 't> {
                 ..4 => words.join(" or "),
                 _ => instead(value, words),
             };
-            self.say("not_a_word", at, &[value, &key, &element.tag, &help]);
+            self.report("not_a_word", at, &[value, &key, &element.tag, &help]);
         }
         entry.map(|(_, value)| *value)
     }
@@ -262,7 +264,7 @@ impl<'p, 't> Reader<'p, 't> {
 
     pub(crate) fn not_negative(&mut self, number: Option<&Number>, what: &str, help: &str) {
         if let Some(number) = number.filter(|number| number.value.is_negative()) {
-            self.say("negative", &number.at, &[&what, &help]);
+            self.report("negative", &number.at, &[&what, &help]);
         }
     }
 
@@ -271,11 +273,9 @@ impl<'p, 't> Reader<'p, 't> {
     pub(crate) fn range(&mut self, joint: &str, range: Option<[Number; 2]>) -> Option<[Number; 2]> {
         let [lower, upper] = range?;
         match lower.value.cmp(&upper.value) {
-            std::cmp::Ordering::Less => Some([lower, upper]),
-            std::cmp::Ordering::Equal => {
-                self.refuse("equal_limits", &lower.at, &[&joint, &lower.text])
-            }
-            std::cmp::Ordering::Greater => {
+            Ordering::Less => Some([lower, upper]),
+            Ordering::Equal => self.refuse("equal_limits", &lower.at, &[&joint, &lower.text]),
+            Ordering::Greater => {
                 self.refuse("reversed", &lower.at, &[&joint, &lower.text, &upper.text])
             }
         }
@@ -289,13 +289,13 @@ impl<'p, 't> Reader<'p, 't> {
         let mut name_set = BTreeSet::new();
         let help = "each needs a name of its own: give it another";
         for (name, at) in names.filter(|(name, _)| !name_set.insert(*name)) {
-            self.say("twice", at, &[&what, name, &help]);
+            self.report("twice", at, &[&what, name, &help]);
         }
     }
 
     pub(crate) fn are_few(&mut self, at: &Span, what: &str, count: usize, few: usize) -> bool {
         if count > few {
-            self.say("too_many", at, &[&count, &what, &few]);
+            self.report("too_many", at, &[&count, &what, &few]);
         }
         count <= few
     }

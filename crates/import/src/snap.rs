@@ -180,10 +180,9 @@ impl Snaps {
     }
 
     fn limit(&mut self, limit: &mut Value<Position>, of: &str) {
-        let Position::Angle(angle) = &limit.value else {
-            return;
-        };
-        if let Some(meant) = self.meant(angle, &limit.text) {
+        if let Position::Angle(angle) = &limit.value
+            && let Some(meant) = self.meant(angle, &limit.text)
+        {
             let to = meant.to_string();
             self.take(limit, Position::Angle(meant), to, of, false);
         }

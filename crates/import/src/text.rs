@@ -65,7 +65,9 @@ impl Text {
 
     /// Returns the name of the file of a place, and its line there, from one.
     pub fn line(&self, byte: usize) -> (&str, usize) {
-        (&self.file_of(byte).0, self.line_of(byte))
+        let (name, range) = self.file_of(byte);
+        let before = self.text.get(range.start..byte).unwrap_or_default();
+        (name, before.matches('\n').count() + 1)
     }
 
     /// Returns bytes of the text with their file and line.
@@ -100,12 +102,6 @@ impl Text {
     fn file_of(&self, byte: usize) -> &(String, Range<usize>) {
         let after = self.files.partition_point(|(_, range)| range.start <= byte);
         &self.files[after.saturating_sub(1)]
-    }
-
-    fn line_of(&self, byte: usize) -> usize {
-        let (_, range) = self.file_of(byte);
-        let before = self.text.get(range.start..byte).unwrap_or_default();
-        before.matches('\n').count() + 1
     }
 
     pub(crate) fn count(&self) -> usize {

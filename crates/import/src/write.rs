@@ -98,7 +98,7 @@ pub(crate) fn file(
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
     let (tool, allow) = (("tool", tool), ("allow", allow));
     let name = ("name", Some(quoted(&name)));
-    say_left_out(&joints, problems);
+    report_left_out(&joints, problems);
     let messages = problems.differences();
     let differences: Vec<String> = messages.iter().map(|message| one_line(message)).collect();
     let notes = ("notes", texts(&differences));
@@ -112,16 +112,11 @@ pub(crate) fn file(
         lines(&mut text, [("name", Some(quoted(base))), ("kind", kind)]);
         lines(&mut text, inertial(body));
     }
+    let root = tree.base.as_ref().map_or(Parent::BASE, |_| base);
     for (index, (model_joint, link)) in joints.iter().zip(&tree.bodies).enumerate() {
         text.push_str("\n[[joint]]\n");
-        let parent = (link.parent != index.checked_sub(1)).then(|| match link.parent {
-            Some(parent) => quoted(&joint_names[parent]),
-            None => quoted(if tree.base.is_some() {
-                base
-            } else {
-                Parent::BASE
-            }),
-        });
+        let parent = link.parent.map_or(root, |parent| &joint_names[parent]);
+        let parent = (link.parent != index.checked_sub(1)).then(|| quoted(parent));
         let name = Some(quoted(&joint_names[index]));
         lines(&mut text, [("name", name), ("parent", parent)]);
         writer.joint(&mut text, model_joint, link, options);
@@ -146,7 +141,6 @@ struct Writer<'m> {
     tree: &'m Tree,
     /// Write angles that are no parts of π as points of the circle with rational coordinates.
     on_the_circle: bool,
-    /// Joints whose range is left out.
     without_room: BTreeSet<&'m str>,
 }
 
@@ -201,10 +195,8 @@ impl Writer<'_> {
             ("armature", unless_zero(number(&joint.armature))),
             ("limits", limits),
         ];
-        lines(
-            text,
-            head.into_iter().chain(inertial(&link.body)).chain(keys),
-        );
+        let tail = inertial(&link.body).into_iter().chain(keys);
+        lines(text, head.into_iter().chain(tail));
     }
 
     /// Returns a placement whose angles the reader of robot files takes without a warning.
@@ -247,7 +239,7 @@ fn name_of(joint: &Joint, index: usize, problems: &mut Problems) -> String {
     match name.trim().parse::<i64>() {
         Ok(number) if usize::try_from(number) != Ok(index + 1) => {
             let other = format!("joint_{number}");
-            problems.say("number_as_name", &joint.at, &[name, &(index + 1), &other]);
+            problems.report("number_as_name", &joint.at, &[name, &(index + 1), &other]);
             other
         }
         _ => name.clone(),
@@ -266,12 +258,12 @@ fn is_no_limit(limit: &&Number) -> bool {
     !limit.value.is_positive()
 }
 
-fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
-    say_friction(joints, problems);
-    say_rotors(joints, problems);
+fn report_left_out(joints: &[&Joint], problems: &mut Problems) {
+    report_friction(joints, problems);
+    report_rotors(joints, problems);
     let springs = having(joints, |joint| joint.spring.as_ref());
     if let Some((_, first)) = springs.first() {
-        problems.say("springs", &first.at, &[&names(&springs)]);
+        problems.report("springs", &first.at, &[&names(&springs)]);
     }
     let velocity = having(joints, |joint| joint.velocity.as_ref().filter(is_no_limit));
     let torque = having(joints, |joint| joint.effort.as_ref().filter(is_no_limit));
@@ -279,49 +271,40 @@ fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
         match limits.as_slice() {
             [] => {}
             [(joint, limit)] => {
-                problems.say("no_limit", &limit.at, &[&key, &joint.name, &limit.text]);
+                problems.report("no_limit", &limit.at, &[&key, &joint.name, &limit.text]);
             }
-            [(_, first), ..] => problems.say("no_limits", &first.at, &[&key, &names(&limits)]),
+            [(_, first), ..] => problems.report("no_limits", &first.at, &[&key, &names(&limits)]),
         }
     }
 }
 
-/// Says the products of inertias and reductions, and what a joint has beside them.
-fn say_rotors(joints: &[&Joint], problems: &mut Problems) {
-    let armature = |joint: &&&Joint| {
+/// Reports the products of inertias and reductions, and what a joint has beside them.
+fn report_rotors(joints: &[&Joint], problems: &mut Problems) {
+    let armature = |joint: &&Joint| {
         let product = |[rotor, ratio]: &[Number; 2]| {
             let value = &rotor.value * &ratio.value * &ratio.value;
             (format!("{} kg·m² × {}²", rotor.text, ratio.text), value)
         };
-        let (mut products, values): (Vec<String>, Vec<Rational>) =
-            joint.rotors.iter().map(product).unzip();
+        let (mut products, values): (Vec<_>, Vec<_>) = joint.rotors.iter().map(product).unzip();
         let rest = &joint.armature - values.iter().sum::<Rational>();
         if !rest.is_zero() {
             products.insert(0, number(&rest));
         }
-        format!(
-            "`{}` {} = {}",
-            joint.name,
-            products.join(" + "),
-            number(&joint.armature)
-        )
+        let (sum, total) = (products.join(" + "), number(&joint.armature));
+        format!("`{}` {sum} = {total}", joint.name)
     };
-    let driven: Vec<&&Joint> = joints
-        .iter()
-        .filter(|joint| !joint.rotors.is_empty())
-        .collect();
+    let mut driven = joints.to_vec();
+    driven.retain(|joint| !joint.rotors.is_empty());
     if let Some([inertia, _]) = driven.first().and_then(|joint| joint.rotors.first()) {
         let armatures: Vec<String> = driven.iter().map(armature).collect();
-        problems.say("rotors", &inertia.at, &[&armatures.join(", ")]);
+        problems.report("rotors", &inertia.at, &[&armatures.join(", ")]);
     }
 }
 
-fn say_friction(joints: &[&Joint], problems: &mut Problems) {
+fn report_friction(joints: &[&Joint], problems: &mut Problems) {
     let friction = having(joints, |joint| {
-        joint
-            .friction
-            .as_ref()
-            .filter(|friction| !friction.value.is_zero())
+        let friction = joint.friction.as_ref();
+        friction.filter(|friction| !friction.value.is_zero())
     });
     let Some((joint, first)) = friction.first() else {
         return;
@@ -338,7 +321,7 @@ fn say_friction(joints: &[&Joint], problems: &mut Problems) {
         entries => (names(entries), "each joint its own, such as"),
     };
     let words: [&dyn Display; 4] = [&of, &whose, &number(&first.value), &unit];
-    problems.say("friction", &first.at, &words);
+    problems.report("friction", &first.at, &words);
 }
 
 fn names(joints: &[(&Joint, &Number)]) -> String {

@@ -48,9 +48,8 @@ impl Element {
     pub(crate) fn get(&self, key: &str) -> Option<&Attribute> {
         #[cfg(test)]
         tests::ASKED.with_borrow_mut(|asked| asked.insert([self.tag.clone(), key.to_owned()]));
-        self.attributes
-            .iter()
-            .find(|attribute| attribute.key == key)
+        let mut attributes = self.attributes.iter();
+        attributes.find(|attribute| attribute.key == key)
     }
 
     pub(crate) fn value(&self, key: &str) -> Option<&str> {
@@ -112,10 +111,8 @@ pub(crate) fn parse(
     let before = lines.by_ref().take(at.row.saturating_sub(1) as usize);
     let line: usize = before.map(str::len).sum();
     let mut bytes = lines.next().unwrap_or_default().char_indices();
-    let column = bytes
-        .nth(at.col.saturating_sub(1) as usize)
-        .map_or(0, |(byte, _)| byte);
-    let at = start + line + column;
+    let column = bytes.nth(at.col.saturating_sub(1) as usize);
+    let at = start + line + column.map_or(0, |(byte, _)| byte);
     let help = match source.trim_start().starts_with('<') {
         true => "",
         false => "a URDF is XML: <robot name=\"arm\"> …; so is MJCF: <mujoco> …",
@@ -255,14 +252,13 @@ fn element(node: Node, source: &str, start: usize) -> Element {
         value: value.trim().to_owned(),
         at: shift(place),
     });
-    let inside = node.children().filter(Node::is_element);
+    let elements = node.children().filter(Node::is_element);
+    let inside = elements.map(|inside| element(inside, source, start));
     Element {
         tag: name(range.start + 1, node.tag_name().name()),
         at: shift(range.start..range.start + end),
         attributes: attributes.collect(),
-        inside: inside
-            .map(|inside| element(inside, source, start))
-            .collect(),
+        inside: inside.collect(),
         text,
     }
 }

@@ -2,10 +2,11 @@
 //! library, Pinocchio for a URDF and MuJoCo for an MJCF; with snapping they are off by no more than
 //! the bounds say.
 
-use crate::support::{MJCFS, URDFS, bounded, exact, golden, imported, motion, snapped, worst};
+use crate::support::{
+    MJCFS, URDFS, bounded, exact, flat, golden, imported, motion, snapped, states, vector, worst,
+};
 use dalembert_import::Motion;
 use dalembert_model::reference::Reference;
-use nalgebra::DVector;
 
 #[test]
 fn exact_digits_give_the_torques_of_the_model() {
@@ -38,9 +39,10 @@ fn snapped_hands_stay_within_the_bound() {
         let motion = motion(&golden);
         let bound = imported.change.as_ref().map(|change| change.hand(&motion));
         let (mut far, mut turned) = (0.0f64, 0.0f64);
-        for state in &golden.states {
-            let hand = runtime.hand(&DVector::from_vec(state.q.clone())).unwrap();
-            let off = |k: &usize| hand.rows()[*k] - state.pose[*k];
+        for state in states(&golden) {
+            let hand = runtime.hand(&vector(state, "q")).unwrap().rows();
+            let pose = flat(&state["tip_pose"]);
+            let off = |k: &usize| hand[*k] - pose[*k];
             let square = |keys: &[usize]| keys.iter().map(|k| off(k) * off(k)).sum::<f64>();
             far = far.max(square(&[3, 7, 11]).sqrt());
             // |R − R'| over all entries is 2√2 sin(φ/2).

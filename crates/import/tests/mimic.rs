@@ -6,7 +6,7 @@ use dalembert_model::outputs::{Argument, Quantity};
 use dalembert_model::reference::{JointVectors, Reference};
 use nalgebra::DVector;
 
-use crate::support::{data, flat, imported, json, relative, source, taken, to};
+use crate::support::{data, flat, golden, imported, relative, source, states, taken, to};
 
 const ARM: &str = "wafer";
 
@@ -26,9 +26,8 @@ fn the_runtime_gives_what_pinocchio_gives() {
     let names: Vec<&str> = joints.map(|j| j.name.as_deref().unwrap()).collect();
     assert_eq!(names, ["turn", "lift", "shoulder", "tilt"]);
     let runtime = Reference::<f64>::from_robot(&imported.robot);
-    let json = json(ARM);
     let mut compared = 0;
-    for state in json["states"].as_array().unwrap() {
+    for state in states(&golden(ARM)) {
         let of = |argument: Argument| {
             let key = argument.given().unwrap_or_default();
             DVector::from_vec(state.get(key).map_or_else(Vec::new, flat))

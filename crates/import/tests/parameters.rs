@@ -45,9 +45,9 @@ fn add(sum: &mut Parameters, mass: f64, inertia: Matrix3<f64>, at: Pose) {
     let moments = c.iter().map(|x| mass * x);
     let tensor = places.map(|place| tensor[place]);
     let parts = [mass].into_iter().chain(moments).chain(tensor);
-    sum.iter_mut()
-        .zip(parts)
-        .for_each(|(sum, part)| *sum += part);
+    for (sum, part) in sum.iter_mut().zip(parts) {
+        *sum += part;
+    }
 }
 
 fn origin(node: Node) -> Pose {
@@ -117,9 +117,7 @@ fn check(name: &str, robot: &Robot, text: &str) {
                 .map(|load| load.to_f64().unwrap());
             viscous * qd[i] + armature * qdd[i]
         });
-        let arguments = [Position, Velocity, Acceleration]
-            .into_iter()
-            .zip([q, qd, qdd]);
+        let arguments = [(Position, q), (Velocity, qd), (Acceleration, qdd)];
         let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(arguments));
         let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
         let size = (y.abs() * pi.abs()).amax();

@@ -6,18 +6,13 @@
 use dalembert_import::{Import, Options, open};
 use dalembert_model::read::Diagnostic;
 use dalembert_model::reference::Reference;
-use nalgebra::DVector;
 use serde_json::Value;
 
-use crate::support::{data, flat, path, relative};
+use crate::support::{data, flat, path, relative, vector, words};
 
 fn options(case: &Value) -> Options {
     let mut options = Options::default();
-    let mut words = case["options"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(|word| word.as_str().unwrap().to_owned());
+    let mut words = words(&case["options"]).into_iter().map(str::to_owned);
     while let Some(option) = words.next() {
         match option.as_str() {
             "--exact" => options.exact = true,
@@ -31,23 +26,17 @@ fn options(case: &Value) -> Options {
 
 fn off(imported: &Import, case: &Value) -> f64 {
     let runtime = Reference::<f64>::from_robot(&imported.robot);
-    let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| DVector::from_vec(flat(&case[key])));
+    let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| vector(case, key));
     let torques = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
     relative(torques.as_slice(), &flat(&case["tau"]))
 }
 
 fn names(messages: &[Diagnostic], case: &Value) -> bool {
-    let mut words = case["words"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|word| word.as_str().unwrap());
-    words.any(|word| {
+    words(&case["words"]).into_iter().any(|word| {
         let says = |text: &str| text.contains(word);
         let help = |message: &Diagnostic| message.help.as_deref().is_some_and(says);
-        messages
-            .iter()
-            .any(|diagnostic| says(&diagnostic.message) || help(diagnostic))
+        let mut messages = messages.iter();
+        messages.any(|message| says(&message.message) || help(message))
     })
 }
 
@@ -65,8 +54,7 @@ fn what_a_file_says_is_read_or_said_to_be_left_out() {
             ("word", Ok(imported)) => names(&imported.notes, case),
             ("word", Err(error)) => {
                 let text = format!("{error:?}");
-                let mut words = case["words"].as_array().unwrap().iter();
-                words.any(|word| text.contains(word.as_str().unwrap()))
+                words(&case["words"]).iter().any(|word| text.contains(word))
             }
             (_, Ok(_)) => false,
             (_, Err(error)) => panic!("{file}: {error:?}"),

@@ -9,14 +9,28 @@ use dalembert_model::equations::frames::{Axes, Rows, View};
 use dalembert_model::number::{Angle, Rounded};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 
-use crate::support::{data, flat, path, relative, taken, to};
+use crate::support::{data, flat, golden, path, relative, states, taken, to, vector, words};
 
 fn tree() -> Options {
     Options {
         tree: true,
+        ..Options::default()
+    }
+}
+
+fn exact_tree() -> Options {
+    Options {
+        exact: true,
+        ..tree()
+    }
+}
+
+fn tips(tips: &[&str]) -> Options {
+    Options {
+        tips: tips.iter().map(|tip| (*tip).to_owned()).collect(),
         ..Options::default()
     }
 }
@@ -43,11 +57,9 @@ fn coordinates(robot: &Robot) -> Vec<&str> {
 
 /// Returns the largest difference from Pinocchio's values, which are of joints in another order.
 fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
-    let names = golden["joints"].as_array().unwrap();
-    let places: Vec<usize> = coordinates(robot)
-        .iter()
-        .map(|name| names.iter().position(|other| other == name).unwrap())
-        .collect();
+    let names = words(&golden["joints"]);
+    let place = |name: &&str| names.iter().position(|other| other == name).unwrap();
+    let places: Vec<usize> = coordinates(robot).iter().map(place).collect();
     assert_eq!(places.len(), names.len());
     let view = View {
         frame,
@@ -55,12 +67,10 @@ fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
         rows: Rows::ALL,
     };
     let view_arm = Arm::from_robot(robot, &mut f64::nearest).seen(&view);
-    let (runtime, view_runtime) = (
-        Reference::from_robot(robot),
-        Reference::new(view_arm.unwrap()),
-    );
+    let view_runtime = Reference::new(view_arm.unwrap());
+    let runtime = Reference::from_robot(robot);
     let mut worst = 0.0f64;
-    for state in golden["states"].as_array().unwrap() {
+    for state in states(golden) {
         let of = |key: &str| {
             let values = flat(&state[key]);
             DVector::from_iterator(places.len(), places.iter().map(|place| values[*place]))
@@ -68,24 +78,16 @@ fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
         let [q, qd, qdd] = ["q", "qd", "qdd"].map(of);
         let inertia = flat(&state["inertia"]);
         let entry = |i: usize, k: usize| inertia[places[i] * places.len() + places[k]];
-        let expected: Vec<f64> = (0..places.len())
-            .flat_map(|i| (0..places.len()).map(move |k| (i, k)))
-            .map(|(i, k)| entry(i, k))
-            .collect();
+        let expected = DMatrix::from_fn(places.len(), places.len(), |k, i| entry(i, k));
+        let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        let gravity = runtime.gravity(&q).unwrap();
+        let inertia = runtime.inertia(&q).unwrap();
+        let frame = view_runtime.hand(&q).unwrap().rows();
         for (found, expected) in [
-            (
-                runtime.inverse_dynamics(&q, &qd, &qdd).unwrap().as_slice(),
-                of("tau").as_slice(),
-            ),
-            (
-                runtime.gravity(&q).unwrap().as_slice(),
-                of("gravity").as_slice(),
-            ),
-            (runtime.inertia(&q).unwrap().as_slice(), &expected),
-            (
-                &view_runtime.hand(&q).unwrap().rows(),
-                &flat(&state["frame"]),
-            ),
+            (tau.as_slice(), of("tau").as_slice()),
+            (gravity.as_slice(), of("gravity").as_slice()),
+            (inertia.as_slice(), expected.as_slice()),
+            (&frame, &flat(&state["frame"])),
         ] {
             worst = worst.max(relative(found, expected));
         }
@@ -97,23 +99,14 @@ fn worst(robot: &Robot, frame: &'static str, golden: &Value) -> f64 {
 /// followers on four limbs.
 #[test]
 fn all_that_moves_has_the_torques_of_the_model() {
-    let golden: Value = serde_json::from_str(&data("trees.golden.json")).unwrap();
+    let golden = golden("trees");
+    let gripper = with_gripper("ur5.urdf", "tool0");
     for (name, frame, text, joints, followers) in [
         ("baxter", "left_gripper", baxter(), 19, 2),
         ("panda", "panda_leftfinger", data("panda.urdf"), 9, 1),
-        (
-            "ur5_gripper",
-            "right_finger_tip",
-            with_gripper("ur5.urdf", "tool0"),
-            12,
-            5,
-        ),
+        ("ur5_gripper", "right_finger_tip", gripper, 12, 5),
     ] {
-        let exact = Options {
-            exact: true,
-            ..tree()
-        };
-        let as_written = taken(&text, &exact).robot;
+        let as_written = taken(&text, &exact_tree()).robot;
         assert!(as_written.branches());
         assert_eq!(as_written.rows().len(), joints);
         assert_eq!(coordinates(&as_written).len(), joints - followers);
@@ -128,10 +121,6 @@ fn all_that_moves_has_the_torques_of_the_model() {
 /// Constants in the sines of more odd angles would be polynomials of too many terms.
 #[test]
 fn many_odd_angles_are_points_of_the_circle_even_if_exact() {
-    let exact = Options {
-        exact: true,
-        ..tree()
-    };
     for (count, are_points) in [(6, false), (7, true)] {
         let joint = |k: usize| {
             format!(
@@ -143,7 +132,7 @@ fn many_odd_angles_are_points_of_the_circle_even_if_exact() {
         };
         let joints: String = (1..=count).map(joint).collect();
         let text = format!(r#"<robot name="star"><link name="base"/>{joints}</robot>"#);
-        let import = taken(&text, &exact);
+        let import = taken(&text, &exact_tree());
         assert_eq!(import.text.contains("odd angles are within"), are_points);
         for joint in &import.robot.joints {
             let place = joint.place.as_ref().unwrap();
@@ -182,10 +171,8 @@ fn a_follower_that_would_hold_its_leader_has_no_limits() {
 </robot>"#;
     let text = with_gripper("ur5.urdf", "tool0");
     assert!(text.contains(right));
-    let wrong = text.replace(
-        right,
-        &right.replacen("-0.8\" upper=\"0", "0\" upper=\"0.8", 1),
-    );
+    let turned = right.replacen("-0.8\" upper=\"0", "0\" upper=\"0.8", 1);
+    let wrong = text.replace(right, &turned);
     let [plain, import] = [&text, &wrong].map(|text| taken(text, &tree()));
     let said = "the limits of joint `right_inner` would hold `knuckle`, which it follows: they are left out";
     assert!(import.robot.notes.iter().any(|note| note == said));
@@ -195,41 +182,34 @@ fn a_follower_that_would_hold_its_leader_has_no_limits() {
 #[test]
 fn several_tips_take_the_ways_to_them() {
     let options = Options {
-        tips: ["left_gripper", "right_gripper"].map(str::to_owned).into(),
         lock: to("", &[("*", "0"), ("left_w2", "90deg")]).lock,
-        ..Options::default()
+        ..tips(&["left_gripper", "right_gripper"])
     };
     let arms = taken(&baxter(), &options);
     let names = coordinates(&arms.robot);
     assert_eq!((names.len(), arms.robot.tips().len()), (13, 2));
     assert!(!names.contains(&"head_pan") && !names.contains(&"left_w2"));
+    let text = &arms.text;
     assert!(
-        arms.text.contains("the links left_gripper, right_gripper"),
-        "{}",
-        arms.text
+        text.contains("the links left_gripper, right_gripper"),
+        "{text}"
     );
     // Tips on one chain are that chain, and the hand is at the last.
-    let two = |tips: [&str; 2]| Options {
-        tips: tips.map(str::to_owned).into(),
-        ..Options::default()
-    };
     let one = taken(&data("ur5.urdf"), &to("tool0", &[]));
-    let both = taken(&data("ur5.urdf"), &two(["forearm_link", "tool0"]));
+    let both = taken(&data("ur5.urdf"), &tips(&["forearm_link", "tool0"]));
     assert_eq!(one.robot, both.robot);
 }
 
 #[test]
 fn what_cannot_be_a_tree_is_said() {
     let says = |text: &str, options: &Options, words: &str| {
-        let errors = import(text, options)
-            .unwrap_err()
-            .in_file("robot.urdf")
-            .render();
+        let refusal = import(text, options).unwrap_err();
+        let errors = refusal.in_file("robot.urdf").render();
         assert!(errors.contains(words), "{errors}");
     };
     let both = Options {
-        tips: vec!["tool0".to_owned()],
-        ..tree()
+        tree: true,
+        ..tips(&["tool0"])
     };
     says(&data("ur5.urdf"), &both, "both are given: --tip, --tree");
     let two = data("ur5.urdf").replace("</robot>", "<link name=\"other\"/></robot>");
@@ -251,7 +231,7 @@ fn what_cannot_be_a_tree_is_said() {
 #[test]
 fn a_base_floats() {
     let text = data("solo12.urdf");
-    let golden: Value = serde_json::from_str(&data("solo12.golden.json")).unwrap();
+    let golden = golden("solo12");
     let options = Options {
         floating: true,
         ..Options::default()
@@ -272,16 +252,10 @@ fn a_base_floats() {
         ..options
     };
     assert_eq!(taken(&text, &leg).robot.coordinates(), 9);
-    let names: Vec<&str> = golden["joints"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|name| name.as_str().unwrap())
-        .collect();
-    assert_eq!(coordinates(&robot), names);
+    assert_eq!(coordinates(&robot), words(&golden["joints"]));
     let arm = Arm::from_robot(&robot, &mut f64::nearest);
-    for state in golden["states"].as_array().unwrap() {
-        let of = |key: &str| DVector::from_vec(flat(&state[key]));
+    for state in states(&golden) {
+        let of = |key: &str| vector(state, key);
         let g = flat(&state["g"]);
         let runtime = Reference::new(arm.clone().with_gravity(&[g[0], g[1], g[2]]));
         let [q, qd, qdd, effort] = ["q", "qd", "qdd", "effort"].map(of);
@@ -331,11 +305,7 @@ fn a_free_joint_floats() {
     let walks = taken(&both, &Options::default());
     assert!(walks.robot.floating.is_some());
     assert_eq!(walks.robot.joints.len(), 3);
-    let one = Options {
-        tips: vec!["foot".to_owned()],
-        ..Options::default()
-    };
-    assert!(taken(&both, &one).robot.floating.is_none());
+    assert!(taken(&both, &tips(&["foot"])).robot.floating.is_none());
     assert!(taken(&text(""), &tree()).robot.floating.is_none());
     let floating = Options {
         floating: true,

@@ -17,7 +17,7 @@ use dalembert_stamp::{Comment, Stamp};
 use crate::cache::{self, CachedFunction, Entry, Folder};
 use crate::compile::Signature;
 use crate::error::Error;
-use crate::make::{claimed, make_entry, read_robot};
+use crate::make::{make_entry, read_robot};
 use crate::native::Native;
 use crate::request::Load;
 
@@ -104,10 +104,8 @@ impl Arm {
     /// # Errors
     /// As [`Arm::load`].
     pub fn parse(source: &str, name: &str, plan: Option<&str>, load: &Load) -> Result<Arm, Error> {
-        let plan = plan
-            .map(Plan::parse)
-            .transpose()
-            .map_err(|error| error.within(name))?;
+        let plan = plan.map(Plan::parse).transpose();
+        let plan = plan.map_err(|error| error.within(name))?;
         Arm::of(&Text::of(name, source.to_owned()), plan, load)
     }
 
@@ -147,10 +145,8 @@ impl Arm {
             Some(scene) => scene.base_coordinates(&reading.robot),
             None => reading.robot.base_coordinates(),
         };
-        let functions = entry
-            .functions
-            .iter()
-            .map(|proved| compiled(&entry, proved));
+        let compile = |proved| compiled(&entry, proved);
+        let functions = entry.functions.iter().map(compile);
         Ok(Arm {
             robot: reading.robot,
             floats: base > 0,
@@ -235,10 +231,11 @@ impl Arm {
         request.module = name;
         request.plan = Plan::parse(&self.entry.plan).ok();
         let mut generated = generate(&reading.robot, &request)?;
-        let claim = claimed(&reading.robot, self.robot_file(), &request, &generated)?;
+        let claim = workspace::claim(&reading.robot, self.robot_file(), &request, &generated)?;
         let is_new = |warning: &String| !self.notes().contains(warning);
         generated.warnings.retain(is_new);
-        Ok((generated.texts.concat(), claim, generated.warnings))
+        let text = generated.texts.concat();
+        Ok((text, claim.write(), generated.warnings))
     }
 
     /// Returns the robot as a robot file.
@@ -274,12 +271,10 @@ impl Arm {
     /// [`Error`]: what is kept is damaged.
     pub fn loading(&self) -> Result<Vec<(&'static str, Vec<f64>)>, Error> {
         let setup = self.setup()?;
-        let taken = RuntimeParameter::LOADING
-            .into_iter()
-            .filter(|parameter| setup.has(*parameter));
-        Ok(taken
-            .map(|parameter| (parameter.name(), setup.file_values(parameter)))
-            .collect())
+        let mut taken = RuntimeParameter::LOADING.to_vec();
+        taken.retain(|parameter| setup.has(*parameter));
+        let named = |parameter: RuntimeParameter| (parameter.name(), setup.file_values(parameter));
+        Ok(taken.into_iter().map(named).collect())
     }
 
     /// Returns which numbers of the bodies stay zero; none if any may be another.
@@ -304,9 +299,7 @@ impl Arm {
     /// [`Error`]: among others, that there are none.
     pub fn base_parameters(&self) -> Result<Vec<(String, f64)>, Error> {
         let setup = self.setup()?;
-        let base = setup
-            .base(Quantity::BaseRegressor)
-            .map_err(|why| why.clone())?;
+        let base = setup.base(Quantity::BaseRegressor).map_err(Clone::clone)?;
         let values = base.values(&setup.arm(Exact::clone));
         let names = base.names().into_iter();
         Ok(names.zip(values.iter().map(f64::nearest)).collect())
@@ -355,11 +348,10 @@ fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, Error> {
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
     let sizes = proved.sizes();
-    let arguments = proved
-        .arguments
-        .iter()
-        .map(|name| Argument::from_name(name).ok_or_else(damaged))
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut arguments = Vec::new();
+    for name in &proved.arguments {
+        arguments.push(Argument::from_name(name).ok_or_else(damaged)?);
+    }
     let form = workspace::Signature {
         function: output,
         arguments: &arguments,
@@ -367,11 +359,9 @@ fn compiled(entry: &Entry, proved: &CachedFunction) -> Result<Function, Error> {
         scalar,
     };
     let program = Code::parse(text, &form).map_err(|_| damaged())?;
-    let lengths = arguments
-        .iter()
-        .map(|argument| (*argument, argument.length(sizes)));
+    let length = |argument: &Argument| (*argument, argument.length(sizes));
     let signature = Signature {
-        arguments: lengths.collect(),
+        arguments: arguments.iter().map(length).collect(),
         results: output.quantities().iter().map(|q| q.len(sizes)).collect(),
     };
     let native = Native::compile(program, signature)

@@ -92,17 +92,8 @@ impl CachedFunction {
     }
 
     pub(crate) fn sizes(&self) -> Sizes {
-        let [
-            rows,
-            links,
-            joints,
-            floating,
-            blocks,
-            base,
-            load,
-            bodies,
-            table,
-        ] = self.sizes;
+        let [rows, links, joints, floating, ..] = self.sizes;
+        let [.., blocks, base, load, bodies, table] = self.sizes;
         Sizes {
             limbs: self.limbs,
             blocks,
@@ -127,28 +118,14 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
         ..load.clone()
     };
     // Notes and the robot file tell the name.
-    let parts = [
-        source,
-        name,
-        plan.unwrap_or_default(),
-        &format!("{request:?}"),
-    ];
-    hash_of(GENERATOR, &parts)
+    let (plan, request) = (plan.unwrap_or_default(), format!("{request:?}"));
+    hash_of(GENERATOR, &[source, name, plan, &request])
 }
 
 /// One plan serves all functions and scalars that are searched for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     let mut search = load.asked.clone();
-    let of_functions = [
-        "outputs",
-        "scalar",
-        "parameters",
-        "bodies",
-        "keep_zeros",
-        "scene",
-        "name",
-    ];
-    for option in of_functions {
+    for option in "outputs scalar parameters bodies keep_zeros scene name".split(' ') {
         // All of them are options.
         let _ = search.set(option, "");
     }
@@ -177,9 +154,7 @@ impl Folder {
             Cache::At(path) => Some(path.clone()),
             Cache::User => user_folder(),
         };
-        let Some(path) = path else {
-            return Ok(None);
-        };
+        let Some(path) = path else { return Ok(None) };
         match fs::metadata(&path) {
             Ok(about) if !is_private(&about) => Err(format!(
                 "note: nothing is read from the cache `{}` or kept there, since other users may \
@@ -310,13 +285,8 @@ mod tests {
         let root = std::env::temp_dir().join(name);
         fs::create_dir_all(root.join("a/b")).unwrap();
         let mut hashes = vec![sources::hash(&root, &["a"]).unwrap()];
-        let files = [
-            ("a/b/one", "x"),
-            ("a/b/one", "y"),
-            ("a/two", "y"),
-            ("a/b/one", ""),
-        ];
-        for (file, text) in files {
+        let one = "a/b/one";
+        for (file, text) in [(one, "x"), (one, "y"), ("a/two", "y"), (one, "")] {
             fs::write(root.join(file), text).unwrap();
             hashes.push(sources::hash(&root, &["a"]).unwrap());
             fs::rename(root.join(file), root.join("a/renamed")).unwrap();

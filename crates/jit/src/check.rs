@@ -43,11 +43,11 @@ fn reach(argument: Argument) -> f64 {
 fn drawn<T: Machine>(signature: &Signature) -> Vec<Vec<Vec<T>>> {
     let state = |state: usize| {
         let arguments = signature.arguments.iter();
-        let entries = arguments.map(|&(argument, len)| {
-            let entries = 0..len;
-            entries.map(|index| entry(state, argument, index)).collect()
+        let drawn = arguments.map(|&(argument, len)| {
+            let entries = (0..len).map(|index| entry(state, argument, index));
+            entries.collect()
         });
-        entries.collect()
+        drawn.collect()
     };
     (0..STATES).map(state).collect()
 }
@@ -99,43 +99,30 @@ pub(crate) fn check_many<T: Machine + Default>(
     call: impl Fn(&[(&[T], Place)], &mut [(&mut [T], Place)]) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let states = drawn::<T>(signature);
-    let data = signature.arguments.iter().enumerate();
-    let data: Vec<Vec<T>> = data
-        .map(|(argument, &(_, len))| {
-            let (mut data, place) = (vec![T::default(); len * STATES], place(len));
-            for (number, state) in states.iter().enumerate() {
-                for (at, &value) in place.entries(number).zip(&state[argument]) {
-                    data[at] = value;
-                }
+    let mut data: Vec<Vec<T>> = Vec::new();
+    for (argument, &(_, len)) in signature.arguments.iter().enumerate() {
+        let (mut numbers, place) = (vec![T::default(); len * STATES], place(len));
+        for (number, state) in states.iter().enumerate() {
+            for (at, &value) in place.entries(number).zip(&state[argument]) {
+                numbers[at] = value;
             }
-            data
-        })
-        .collect();
-    let rows: Vec<(&[T], Place)> = data
-        .iter()
-        .zip(&signature.arguments)
-        .map(|(data, &(_, len))| (data.as_slice(), place(len)))
-        .collect();
-    let mut outputs: Vec<_> = signature
-        .results
-        .iter()
-        .map(|len| vec![T::default(); len * STATES])
-        .collect();
-    let results = outputs
-        .iter_mut()
-        .zip(&signature.results)
-        .map(|(data, &len)| (data.as_mut_slice(), place(len)));
-    call(&rows, &mut results.collect::<Vec<_>>())?;
+        }
+        data.push(numbers);
+    }
+    let read = data.iter().zip(&signature.arguments);
+    let rows = read.map(|(data, &(_, len))| (data.as_slice(), place(len)));
+    let sizes = signature.results.iter();
+    let mut outputs: Vec<_> = sizes.map(|len| vec![T::default(); len * STATES]).collect();
+    let written = outputs.iter_mut().zip(&signature.results);
+    let results = written.map(|(data, &len)| (data.as_mut_slice(), place(len)));
+    call(&rows.collect::<Vec<_>>(), &mut results.collect::<Vec<_>>())?;
     for (state, arguments) in states.iter().enumerate() {
         let entries = |(output, &len): (&Vec<T>, &usize)| -> Vec<T> {
             place(len).entries(state).map(|at| output[at]).collect()
         };
-        let found: Vec<T> = outputs
-            .iter()
-            .zip(&signature.results)
-            .flat_map(entries)
-            .collect();
-        if let Some(result) = differing(&expected(program, signature, arguments), &found) {
+        let values = outputs.iter().zip(&signature.results).flat_map(entries);
+        let computed: Vec<T> = values.collect();
+        if let Some(result) = differing(&expected(program, signature, arguments), &computed) {
             return Err(Error::Differs { state, result });
         }
     }

@@ -128,9 +128,8 @@ fn one(
         return Err(Error::Program);
     };
     let width = number(code.scalar).bytes() as i32;
-    let addresses: Vec<Value> = (0..signature.arguments.len())
-        .map(|index| address(emitter, arguments, index))
-        .collect();
+    let argument = |index| address(emitter, arguments, index);
+    let addresses: Vec<Value> = (0..signature.arguments.len()).map(argument).collect();
     let read = |argument, index: usize| {
         let (place, len) = signature.argument(argument)?;
         (index < len).then(|| emitter.read(addresses[place], index as i32 * width))
@@ -159,21 +158,18 @@ fn many(
         return Err(Error::Program);
     };
     let lanes = vector(code.scalar).lane_count();
-    let (head, body, end) = emitter.with(|b| {
-        let (head, body, end) = (b.create_block(), b.create_block(), b.create_block());
+    let (head, end, first, next) = emitter.with(|b| {
+        let [head, body, end] = [(); 3].map(|()| b.create_block());
         b.append_block_param(head, types::I64);
         let zero = b.ins().iconst(types::I64, 0);
         b.ins().jump(head, &[BlockArg::Value(zero)]);
-        (head, body, end)
-    });
-    let (first, next) = emitter.with(|b| {
         b.switch_to_block(head);
         let first = b.block_params(head)[0];
         let next = b.ins().iadd_imm_s(first, i64::from(lanes));
         let is_in = b.ins().icmp(IntCC::SignedLessThanOrEqual, next, states);
         b.ins().brif(is_in, body, &[], end, &[]);
         b.switch_to_block(body);
-        (first, next)
+        (head, end, first, next)
     });
     // The offset of each lane's state from the first, of everything with this stride; of
     // adjacent states, that of the vector.

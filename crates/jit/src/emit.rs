@@ -183,14 +183,9 @@ impl<'f> Emitter<'f> {
             let mut load = |index| b.ins().load(floats, unaligned(), address, place(index));
             let mut pair = |index| (load(angles.len() + index), load(2 * angles.len() + index));
             let called: Vec<(Value, Value)> = (0..angles.len()).map(&mut pair).collect();
-            let Some(join) = join else {
-                return called;
-            };
-            let arguments: Vec<BlockArg> = called
-                .iter()
-                .flat_map(|&(sin, cos)| [sin, cos])
-                .map(BlockArg::Value)
-                .collect();
+            let Some(join) = join else { return called };
+            let values = called.iter().flat_map(|&(sin, cos)| [sin, cos]);
+            let arguments: Vec<BlockArg> = values.map(BlockArg::Value).collect();
             b.ins().jump(join, &arguments);
             b.switch_to_block(join);
             let joined = b.block_params(join).chunks(2);

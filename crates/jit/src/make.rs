@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use dalembert_codegen::workspace::{claim, generate_anew, input_hash, keep};
-use dalembert_codegen::{GeneratedCode, Plan, Request, generate};
+use dalembert_codegen::{GeneratedCode, Plan, generate};
 use dalembert_import::{Snap, Text};
 use dalembert_model::read::{self, Reading};
-use dalembert_model::robot::Robot;
 
 use crate::cache::{self, CachedFunction, Entry, Folder};
 use crate::error::Error;
@@ -61,12 +60,12 @@ pub(crate) fn make_entry(
         folder.keep_plan(&key, &plan);
     }
     notes.extend(generated.warnings.iter().cloned());
-    let claim = claimed(&reading.robot, &opened.robot_file, &request, &generated)?;
+    let claim = claim(&reading.robot, &opened.robot_file, &request, &generated)?;
     Ok(Entry {
         robot: opened.robot_file,
         notes,
         functions: proved(&generated),
-        claim,
+        claim: claim.write(),
         plan: plan.write(),
         rust: generated.texts,
         ended: generated.ended,
@@ -78,18 +77,7 @@ fn proved(generated: &GeneratedCode) -> Vec<CachedFunction> {
     // File by file.
     let emitted = generated.emitted.iter().enumerate();
     let both = emitted.zip(functions.iter().cycle());
-    both.map(|((index, code), function)| {
-        CachedFunction::of(index / functions.len(), function, code)
-    })
-    .collect()
-}
-
-pub(crate) fn claimed(
-    robot: &Robot,
-    source: &str,
-    request: &Request,
-    generated: &GeneratedCode,
-) -> Result<String, Error> {
-    let claim = claim(robot, source, request, generated)?;
-    Ok(claim.write())
+    let file = |index: usize| index / functions.len();
+    both.map(|((index, code), function)| CachedFunction::of(file(index), function, code))
+        .collect()
 }

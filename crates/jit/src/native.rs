@@ -239,11 +239,9 @@ impl Native {
             place.check_apart(at, states)?;
         }
         let read = arguments.iter().map(|(data, place)| (data.as_ptr(), place));
-        let written = results
-            .iter_mut()
-            .map(|(data, place)| (data.as_mut_ptr(), &*place));
-        let (read, written): (Vec<_>, Vec<_>) = (read.collect(), written.collect());
-        let (read, written) = (SharedSlice(read), SharedSlice(written));
+        let results = results.iter_mut();
+        let written = results.map(|(data, place)| (data.as_mut_ptr(), &*place));
+        let (read, written) = (SharedSlice(read.collect()), SharedSlice(written.collect()));
         let lanes = vector(self.program.scalar).lane_count() as usize;
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
         // Whole vectors to all but the last.

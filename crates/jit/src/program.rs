@@ -46,10 +46,10 @@ impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
                 pairs.push((pair.joint, polynomials(emitter, kernel, angle)?));
             }
         }
-        let angles = called
-            .iter()
-            .map(|pair| self.angle(pair.joint))
-            .collect::<Result<Vec<Value>, Error>>()?;
+        let mut angles = Vec::new();
+        for pair in &called {
+            angles.push(self.angle(pair.joint)?);
+        }
         let computed = match (code.library, code.scalar) {
             (Library::Together, ScalarType::F64) => together::<f64>(emitter, &angles),
             (Library::Together, ScalarType::F32) => together::<f32>(emitter, &angles),
@@ -146,9 +146,7 @@ fn run<I>(
         };
         values.push(value);
     }
-    let outputs = dag
-        .outputs
-        .iter()
-        .map(|output| signed(values[output.index()], output.negative));
-    Ok(outputs.collect())
+    let outputs = dag.outputs.iter();
+    let values = outputs.map(|output| signed(values[output.index()], output.negative));
+    Ok(values.collect())
 }

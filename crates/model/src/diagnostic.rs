@@ -8,8 +8,12 @@ use core::fmt;
 use core::ops::Range;
 
 #[cfg(feature = "std")]
-use crate::read::closest;
-use crate::robot::RobotWarning;
+pub(crate) mod suggest;
+mod warning;
+
+#[cfg(feature = "std")]
+pub use suggest::closest;
+pub use warning::RobotWarning;
 
 /// The most columns of a line that are printed.
 const MAX_WIDTH: usize = 120;
@@ -43,9 +47,8 @@ pub enum Place {
     None,
     /// Bytes of a file.
     Text(Box<Excerpt>),
-    /// The keys of a robot file that lead to the value, from the outermost one:
-    /// `joint/#2/limits/velocity`. An entry of a list or a table is named by `#` and its
-    /// number, from one.
+    /// The keys of a robot file that lead to the value, from the outermost one on, an entry of a
+    /// list or a table by `#` and its number from one: `joint/#2/limits/velocity`.
     Keys(String),
     /// An option by its name, and the item of its value; empty where it is the option as a whole.
     Option(&'static str, String),
@@ -69,8 +72,7 @@ pub struct Excerpt {
 }
 
 impl Excerpt {
-    /// Creates the excerpt of a span of a source. Its line has this number, counted from one, and
-    /// begins at byte `start`.
+    /// Creates the excerpt of a span of a source, whose line, counted from one, begins at `start`.
     pub fn new(source: &str, span: Range<usize>, line: usize, start: usize) -> Excerpt {
         let before = source.get(start..span.start).unwrap_or_default();
         // A byte order mark takes no column.
@@ -152,8 +154,7 @@ impl Diagnostic {
         }
     }
 
-    /// Creates the error of an unknown word: the word that was probably meant, or else all that are
-    /// known, or if there are none, `otherwise`.
+    /// Creates the error of an unknown word: with the one that was meant, all known, or `otherwise`.
     #[cfg(feature = "std")]
     pub fn unknown(message: String, word: &str, known: &[&str], otherwise: &str) -> Diagnostic {
         let help = match (closest(word, known), known) {
@@ -238,29 +239,26 @@ impl Diagnostic {
 
     /// Returns [`Diagnostic::render`] without the severity, for a program that prints it itself.
     pub fn render_plain(&self) -> String {
-        let (mut text, margin) = match &self.place {
-            Place::Text(excerpt) => self.render_excerpt(excerpt),
-            Place::Option(name, _) => (format!("{name}: {}\n", self.message), " ".to_string()),
-            _ => (format!("{}\n", self.message), " ".to_string()),
-        };
+        let (mut text, mut margin) = (format!("{}\n", self.message), " ".to_string());
+        match &self.place {
+            Place::Text(excerpt) => {
+                let line = excerpt.line;
+                margin = " ".repeat(line.to_string().len());
+                text += &format!(" --> {}:{line}:{}\n", excerpt.file, excerpt.column);
+                if let Some(line_text) = &excerpt.text {
+                    let skip = " ".repeat(excerpt.covered.start);
+                    let carets = "^".repeat(excerpt.covered.len());
+                    text += &format!("{margin} |\n{line} | {line_text}\n");
+                    text += &format!("{margin} | {skip}{carets}\n");
+                }
+            }
+            Place::Option(name, _) => text.insert_str(0, &format!("{name}: ")),
+            _ => {}
+        }
         if let Some(help) = &self.help {
             text += &format!("{margin} = help: {help}\n");
         }
         text
-    }
-
-    fn render_excerpt(&self, excerpt: &Excerpt) -> (String, String) {
-        let Excerpt {
-            file, line, column, ..
-        } = excerpt;
-        let margin = " ".repeat(line.to_string().len());
-        let mut text = format!("{}\n --> {file}:{line}:{column}\n", self.message);
-        if let Some(line_text) = &excerpt.text {
-            let skip = " ".repeat(excerpt.covered.start);
-            let carets = "^".repeat(excerpt.covered.len());
-            text += &format!("{margin} |\n{line} | {line_text}\n{margin} | {skip}{carets}\n");
-        }
-        (text, margin)
     }
 }
 
@@ -268,17 +266,14 @@ impl Diagnostic {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.place {
-            Place::Text(excerpt) => {
-                let Excerpt { line, column, .. } = &**excerpt;
-                write!(f, "{line}:{column}: {}: ", self.severity)?;
-            }
+            Place::Text(at) => write!(f, "{}:{}: {}: ", at.line, at.column, self.severity)?,
             Place::Option(name, _) => write!(f, "{name}: ")?,
             _ => {}
         }
-        f.write_str(&self.message)?;
-        self.help
-            .as_ref()
-            .map_or(Ok(()), |help| write!(f, ": {help}"))
+        match &self.help {
+            Some(help) => write!(f, "{}: {help}", self.message),
+            None => f.write_str(&self.message),
+        }
     }
 }
 

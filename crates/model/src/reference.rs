@@ -16,7 +16,9 @@ use crate::equations::kinematics::poses;
 use crate::equations::load::LoadArguments;
 use crate::equations::matrix::{Columns, zeros};
 use crate::equations::regressor::{Column, of_links};
-use crate::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair, base_position};
+use crate::equations::{
+    Arm, DhVariables, Formulation, JointPosition, Link, SinCosPair, base_position,
+};
 use crate::number::{Exact, Rounded};
 use crate::outputs::{Argument, Axis, Motion, Quantity, Sizes, Written};
 use crate::robot::{JointKind, Robot, limb_starts};
@@ -66,8 +68,7 @@ pub struct JointVectors<T> {
 }
 
 impl<T: Float> JointVectors<T> {
-    /// Makes a state from the entries of arguments; those that nothing reads may be left out,
-    /// as are gravity and payloads, which the arm has.
+    /// Makes a state from the entries of those arguments that something reads and no arm has.
     pub fn new(vectors: impl IntoIterator<Item = (Argument, DVector<T>)>) -> Self {
         let mut by_argument = Argument::ALL.map(|_| DVector::from_vec(Vec::new()));
         for (argument, vector) in vectors {
@@ -137,23 +138,19 @@ pub struct Reference<T> {
 }
 
 impl<T: Float> Reference<T> {
-    /// Returns the dynamics of an arm; lengths without effect are folded away first
-    /// ([`Arm::fold_base`]).
-    pub fn new(arm: Arm<T>) -> Self {
-        Reference {
-            arm: arm.clone().fold_base(),
-            whole: arm,
-        }
+    /// Returns the dynamics of an arm; lengths without effect are [folded](Arm::fold_base) away.
+    pub fn new(whole: Arm<T>) -> Self {
+        let arm = whole.clone().fold_base();
+        Reference { arm, whole }
     }
 
     /// Returns the dynamics of a robot, each parameter rounded once.
     pub fn from_robot(robot: &Robot) -> Self {
         // Folded while exact: sin α of a parallel axis is zero here, not small.
         let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
-        Reference {
-            whole: exact.map(T::nearest),
-            arm: exact.fold_base().map(T::nearest),
-        }
+        let whole = exact.map(T::nearest);
+        let arm = exact.fold_base().map(T::nearest);
+        Reference { arm, whole }
     }
 
     /// Returns the arm as it is computed with.
@@ -178,24 +175,19 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// A vector that the quantity depends on has another length than the arm has joints.
     pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, Diagnostic> {
+        use Argument::{Armature, Bodies, Gravity, Load, Payload, Position, Viscous};
         let vector = |argument: Argument| &at.by_argument[argument.index()];
-        let position = Argument::Position;
-        let q = self.positions(self.values(position, vector(position))?);
-        let mut by_argument = Argument::ALL
-            .into_iter()
-            .map(|argument| match argument {
-                Argument::Gravity
-                | Argument::Load
-                | Argument::Bodies
-                | Argument::Armature
-                | Argument::Viscous
-                | Argument::Payload => Ok(Vec::new()),
+        let q = self.positions(self.values(Position, vector(Position))?);
+        let mut by_argument = Argument::ALL.map(|_| Vec::new());
+        for (argument, values) in Argument::ALL.into_iter().zip(&mut by_argument) {
+            *values = match argument {
+                Gravity | Load | Bodies | Armature | Viscous | Payload => continue,
                 _ if quantity.arguments().contains(&argument) => {
-                    self.values(argument, vector(argument)).map(<[T]>::to_vec)
+                    self.values(argument, vector(argument))?.to_vec()
                 }
-                _ => Ok(zeros(argument.length(self.sizes()))),
-            })
-            .collect::<Result<Vec<Vec<T>>, Diagnostic>>()?;
+                _ => zeros(argument.length(self.sizes())),
+            };
+        }
         let mut motion = Motion::new(q, |argument| {
             core::mem::take(&mut by_argument[argument.index()])
         });
@@ -216,10 +208,8 @@ impl<T: Float> Reference<T> {
             columns,
         });
         let rows: Vec<usize> = (0..arm.links.len()).collect();
-        let sizes = Sizes {
-            base: columns.len(),
-            ..self.sizes()
-        };
+        let mut sizes = self.sizes();
+        sizes.base = columns.len();
         Ok(quantity.selected(values, [&rows, &self.rows()], &arm.following, sizes))
     }
 
@@ -274,8 +264,7 @@ impl<T: Float> Reference<T> {
         self.vector(Quantity::Gravity, [q])
     }
 
-    /// Computes h_ikm: for each joint i the symmetric n×n matrix with
-    /// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
+    /// Computes h_ikm: for each joint i a symmetric n×n matrix, h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
     ///
     /// # Errors
     /// `q` has another length than the arm has joints.
@@ -348,7 +337,7 @@ impl<T: Float> Reference<T> {
     }
 
     fn positions(&self, q: &[T]) -> Vec<JointPosition<T>> {
-        let position = |(link, q): (&crate::equations::Link<T>, &T)| match link.kind {
+        let position = |(row, q): (usize, &T)| match self.arm.links[row].kind {
             JointKind::Revolute => {
                 let (sin, cos) = q.sin_cos();
                 JointPosition::Revolute(SinCosPair { sin, cos })
@@ -357,9 +346,8 @@ impl<T: Float> Reference<T> {
         };
         let base = self.arm.base_joints();
         let rows = self.rows().into_iter().skip(base);
-        let links = rows.map(|row| &self.arm.links[row]);
         let fixed = base_position().into_iter().take(base);
-        fixed.chain(links.zip(q).map(position)).collect()
+        fixed.chain(rows.zip(q).map(position)).collect()
     }
 
     fn rows(&self) -> Vec<usize> {
@@ -373,25 +361,22 @@ impl<T: Float> Reference<T> {
         argument: Argument,
         vector: &'a DVector<T>,
     ) -> Result<&'a [T], Diagnostic> {
-        let [expected, found] = [argument.length(self.sizes()), vector.len()];
-        if found != expected {
-            return Err(Diagnostic::error(format!(
-                "`{}` has {found} values, the arm has {expected} joints",
-                argument.name()
-            )));
+        let [expected, count] = [argument.length(self.sizes()), vector.len()];
+        if count == expected {
+            return Ok(vector.as_slice());
         }
-        Ok(vector.as_slice())
+        let name = argument.name();
+        let message = format!("`{name}` has {count} values, the arm has {expected} joints");
+        Err(Diagnostic::error(message))
     }
 }
 
 fn at_speeds<'a, T: Float>(arm: &'a Arm<T>, qd: &[T]) -> Cow<'a, Arm<T>> {
-    let links = &arm.links;
-    if links.iter().all(|link| link.friction.coulomb.is_none()) {
+    let links = arm.links.iter();
+    if links.clone().all(|link| link.friction.coulomb.is_none()) {
         return Cow::Borrowed(arm);
     }
-    let speeds = links
-        .iter()
-        .zip(qd)
-        .map(|(link, qd)| link.friction.per_speed(qd, |x| x.root()));
-    Cow::Owned(arm.clone().at_speeds(&speeds.collect::<Vec<_>>()))
+    let at_speed = |(link, qd): (&Link<T>, &T)| link.friction.per_speed(qd, |x| x.root());
+    let speeds: Vec<_> = links.zip(qd).map(at_speed).collect();
+    Cow::Owned(arm.clone().at_speeds(&speeds))
 }

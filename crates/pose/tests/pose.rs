@@ -20,27 +20,18 @@ const AXES: [Axes; 3] = [Axes::Mixed, Axes::World, Axes::Split];
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Number<S>(S);
 
-trait Exact: Scalar + Copy + PartialEq {
-    fn over(&self, other: &Self) -> Self;
+trait Exact: Divide + Copy + PartialEq {
+    fn over(&self, other: &Self) -> Self {
+        self.div(other)
+    }
     /// Returns false in a field, which has no order.
     fn is_below(&self, _: &Self) -> bool {
         false
     }
 }
 
-impl Exact for Field {
-    fn over(&self, other: &Self) -> Self {
-        self.div(other)
-    }
-}
-
-impl Exact for Dual<Field> {
-    fn over(&self, other: &Self) -> Self {
-        let value = self.value.div(&other.value);
-        let rate = self.rate.sub(&value.mul(&other.rate)).div(&other.value);
-        Dual { value, rate }
-    }
-}
+impl Exact for Field {}
+impl Exact for Dual<Field> {}
 
 impl Exact for Wide {
     fn over(&self, other: &Self) -> Self {
@@ -98,16 +89,10 @@ impl<S: Exact> PartialOrd for Number<S> {
 
 impl<S: Exact> From<u16> for Number<S> {
     fn from(count: u16) -> Self {
-        let bits = (0..u16::BITS).rev().map(|bit| count >> bit & 1);
-        let sum = bits.fold(S::zero(), |sum, bit| {
-            let twice = sum.double();
-            if bit == 1 {
-                twice.add(&S::one())
-            } else {
-                twice
-            }
-        });
-        Number(sum)
+        let digits = [S::zero(), S::one()];
+        let bit = |place: u32| usize::from(count >> place & 1);
+        let bits = (0..u16::BITS).rev().map(bit);
+        Number(bits.fold(S::zero(), |sum, bit| sum.double().add(&digits[bit])))
     }
 }
 
@@ -119,10 +104,10 @@ fn some<const N: usize>(points: &mut Points) -> [Residue; N] {
     std::array::from_fn(|_| Number(points.field()))
 }
 
-fn pose(points: &mut Points) -> Pose<Residue> {
+fn pose_of<T: Real>(position: [T; 3], xyzw: [T; 4]) -> Pose<T> {
     Pose {
-        position: some(points),
-        orientation: Quaternion::from_xyzw(some(points)),
+        position,
+        orientation: Quaternion::from_xyzw(xyzw),
     }
 }
 
@@ -138,27 +123,17 @@ fn rotations_are_those_of_the_textbook() {
         let [x, y, z, w] = some(&mut points);
         let orientation = Quaternion::from_wxyz([w, x, y, z]);
         assert_eq!(orientation, Quaternion::from_xyzw([x, y, z, w]));
-        let one = x * x + y * y + z * z + w * w;
+        let [xx, yy, zz, ww] = [x, y, z, w].map(|entry| entry * entry);
         let two = Residue::from(2);
+        let [xy, yz, xz] = [two * x * y, two * y * z, two * x * z];
+        let [wx, wy, wz] = [x, y, z].map(|entry| two * w * entry);
         let rows = [
-            [
-                w * w + x * x - y * y - z * z,
-                two * (x * y - w * z),
-                two * (x * z + w * y),
-            ],
-            [
-                two * (x * y + w * z),
-                w * w - x * x + y * y - z * z,
-                two * (y * z - w * x),
-            ],
-            [
-                two * (x * z - w * y),
-                two * (y * z + w * x),
-                w * w - x * x - y * y + z * z,
-            ],
+            [ww + xx - yy - zz, xy - wz, xz + wy],
+            [xy + wz, ww - xx + yy - zz, yz - wx],
+            [xz - wy, yz + wx, ww - xx - yy + zz],
         ];
         let vector = some(&mut points);
-        let expected = rows.map(|row| dot(row, vector) / one);
+        let expected = rows.map(|row| dot(row, vector) / (xx + yy + zz + ww));
         assert_eq!(orientation.rotate(vector), expected);
         assert_eq!(orientation.rotate_back(expected), vector);
         let other = Quaternion::from_xyzw(some(&mut points));
@@ -172,7 +147,7 @@ fn rotations_are_those_of_the_textbook() {
 fn accelerations_are_rates_of_velocities() {
     let mut points = Points::new(2);
     for _ in 0..20 {
-        let here = pose(&mut points);
+        let here = pose_of(some(&mut points), some(&mut points));
         let [velocity, acceleration]: [[Residue; 6]; 2] = [some(&mut points), some(&mut points)];
         let moving = |value: Residue, rate: Residue| {
             let (value, rate) = (value.0, rate.0);
@@ -180,42 +155,25 @@ fn accelerations_are_rates_of_velocities() {
         };
         let [a, b, c, d, e, f] = velocity;
         let half = Residue::from(1) / Residue::from(2);
-        let by = Quaternion {
-            x: half * d,
-            y: half * e,
-            z: half * f,
-            w: Residue::from(0),
-        };
+        let by = Quaternion::from_xyzw([half * d, half * e, half * f, Residue::from(0)]);
         let position_rate = here.orientation.rotate([a, b, c]);
         let turn_rate = here.orientation.after(by).to_xyzw();
         let orientation = here.orientation.to_xyzw();
-        let moved = Pose {
-            position: std::array::from_fn(|i| moving(here.position[i], position_rate[i])),
-            orientation: Quaternion::from_xyzw(std::array::from_fn(|i| {
-                moving(orientation[i], turn_rate[i])
-            })),
-        };
+        let moved = pose_of(
+            std::array::from_fn(|i| moving(here.position[i], position_rate[i])),
+            std::array::from_fn(|i| moving(orientation[i], turn_rate[i])),
+        );
         let changing = std::array::from_fn(|i| moving(velocity[i], acceleration[i]));
         for axes in AXES {
             let expected = moved.velocity_in(axes, changing);
-            let found = here.acceleration_in(axes, velocity, acceleration);
-            assert_eq!(
-                found.map(|number| number.0),
-                expected.map(|number| number.0.rate),
-                "{axes:?}"
-            );
-            let value = here.velocity_in(axes, velocity);
-            assert_eq!(
-                value.map(|number| number.0),
-                expected.map(|number| number.0.value),
-                "{axes:?}"
-            );
+            let value = expected.map(|number| Number(number.0.value));
+            let rate = expected.map(|number| Number(number.0.rate));
+            assert_eq!(here.velocity_in(axes, velocity), value, "{axes:?}");
             assert_eq!(here.velocity_from(axes, value), velocity, "{axes:?}");
-            assert_eq!(
-                here.acceleration_from(axes, velocity, found),
-                acceleration,
-                "{axes:?}"
-            );
+            let there = here.acceleration_in(axes, velocity, acceleration);
+            assert_eq!(there, rate, "{axes:?}");
+            let back = here.acceleration_from(axes, velocity, there);
+            assert_eq!(back, acceleration, "{axes:?}");
         }
     }
 }
@@ -225,10 +183,7 @@ fn wide<const N: usize>(values: [f64; N]) -> [Number<Wide>; N] {
 }
 
 fn widened(pose: &Pose<f64>) -> Pose<Number<Wide>> {
-    Pose {
-        position: wide(pose.position),
-        orientation: Quaternion::from_xyzw(wide(pose.orientation.to_xyzw())),
-    }
+    pose_of(wide(pose.position), wide(pose.orientation.to_xyzw()))
 }
 
 /// Poses and steps with turns from zero to half a turn, most of them near either end.
@@ -239,7 +194,7 @@ fn steps() -> impl Iterator<Item = (Pose<f64>, [f64; 6])> {
         let position = [unit(), unit(), unit()];
         let xyzw: [f64; 4] = [unit(), unit(), unit(), unit()];
         let length = xyzw.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let orientation = Quaternion::from_xyzw(xyzw.map(|x| x / length));
+        let pose = pose_of(position, xyzw.map(|x| x / length));
         let mut step: [f64; 6] = [unit(), unit(), unit(), unit(), unit(), unit()];
         let turn = step[3..].iter().map(|x| x * x).sum::<f64>().sqrt();
         let part = 10f64.powi(-(round % 18));
@@ -249,17 +204,15 @@ fn steps() -> impl Iterator<Item = (Pose<f64>, [f64; 6])> {
             _ => 3.0 * unit().abs(),
         };
         step[3..].iter_mut().for_each(|x| *x *= angle / turn);
-        (
-            Pose {
-                position,
-                orientation,
-            },
-            step,
-        )
+        (pose, step)
     })
 }
 
 const UNIT: f64 = 1.0 / (1u64 << 53) as f64;
+
+fn largest<'v>(values: impl IntoIterator<Item = &'v f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, x| x.abs().max(most))
+}
 
 fn worst<const N: usize>(values: [f64; N], truth: [Number<Wide>; N]) -> f64 {
     let off = wide(values).into_iter().zip(truth);
@@ -275,11 +228,7 @@ fn errors_are_below_their_bounds() {
     for (pose, step) in steps() {
         let next = pose.integrate(step);
         let truth = widened(&pose).integrate(wide(step));
-        let longest = pose
-            .position
-            .iter()
-            .chain(&step[..3])
-            .fold(0.0, |most, x| x.abs().max(most));
+        let longest = largest(pose.position.iter().chain(&step[..3]));
         let turned = worst(next.orientation.to_xyzw(), truth.orientation.to_xyzw());
         most[0] = most[0].max(turned / UNIT);
         let moved = worst(next.position, truth.position);
@@ -288,29 +237,18 @@ fn errors_are_below_their_bounds() {
         assert!((length - 1.0).abs() < 16.0 * UNIT, "{length}");
         let difference = pose.difference(&next);
         let truth = widened(&pose).difference(&widened(&next));
-        let longest = pose
-            .position
-            .iter()
-            .chain(&next.position)
-            .fold(0.0, |most, x| x.abs().max(most));
+        let longest = largest(pose.position.iter().chain(&next.position));
         let [linear, turn] = [0, 3].map(|from| {
             let part = |i: usize| (difference[from + i], truth[from + i]);
             let parts = [part(0), part(1), part(2)];
             worst(parts.map(|pair| pair.0), parts.map(|pair| pair.1))
         });
-        let size = difference[3..]
-            .iter()
-            .fold(0.0, |most, x| x.abs().max(most));
         most[2] = most[2].max(turn / UNIT);
         most[3] = most[3].max(linear / UNIT / longest);
         // What is left of an angle's digits is what the two orientations have of it.
-        let lost = step
-            .iter()
-            .zip(difference)
-            .skip(3)
-            .map(|(a, b)| (a - b).abs());
-        most[4] = most[4].max(lost.fold(0.0, f64::max) / UNIT);
-        assert!(size < 3.2);
+        let lost: [f64; 3] = std::array::from_fn(|i| step[3 + i] - difference[3 + i]);
+        most[4] = most[4].max(largest(&lost) / UNIT);
+        assert!(largest(&difference[3..]) < 3.2);
     }
     println!("of u: {most:?}");
     for (error, bound) in most.into_iter().zip([4.0, 16.0, 16.0, 32.0, 64.0]) {
@@ -319,11 +257,8 @@ fn errors_are_below_their_bounds() {
 }
 
 fn read(value: &Value) -> Vec<f64> {
-    let entries = value.as_array().unwrap();
-    entries
-        .iter()
-        .map(|entry| entry.as_f64().unwrap())
-        .collect()
+    let entries = value.as_array().unwrap().iter();
+    entries.map(|entry| entry.as_f64().unwrap()).collect()
 }
 
 fn entries<const N: usize>(row: &Value, key: &str) -> [f64; N] {
@@ -335,38 +270,25 @@ fn values_are_pinocchio_s() {
     let rows: Value = serde_json::from_str(include_str!("data/values.json")).unwrap();
     let mut most: f64 = 0.0;
     for row in rows.as_array().unwrap() {
-        let xyzw: [f64; 4] = entries(row, "xyzw");
-        let pose = Pose {
-            position: entries(row, "position"),
-            orientation: Quaternion::from_xyzw(xyzw),
-        };
+        let pose = pose_of(entries(row, "position"), entries(row, "xyzw"));
         let [px, py, pz, x, y, z, w]: [f64; 7] = entries(row, "to");
         let next = pose.integrate(entries(row, "step"));
-        let to = Pose {
-            position: [px, py, pz],
-            orientation: Quaternion::from_xyzw([x, y, z, w]),
-        };
+        let to = pose_of([px, py, pz], [x, y, z, w]);
         let velocity = entries(row, "velocity");
         let acceleration = entries(row, "acceleration");
+        let gravity = pose.orientation.rotate_back([0.0, 0.0, -9.81]);
         let mut compared = vec![
             (next.position.to_vec(), vec![px, py, pz]),
             (next.orientation.to_xyzw().to_vec(), vec![x, y, z, w]),
             (pose.difference(&to).to_vec(), read(&row["difference"])),
-            (
-                pose.orientation.rotate_back([0.0, 0.0, -9.81]).to_vec(),
-                read(&row["gravity"]),
-            ),
+            (gravity.to_vec(), read(&row["gravity"])),
         ];
         for (axes, name) in [(Axes::Mixed, "mixed"), (Axes::World, "world")] {
-            let [axes_velocity, rate] = [
-                pose.velocity_in(axes, velocity),
-                pose.acceleration_in(axes, velocity, acceleration),
-            ];
-            compared.push((
-                axes_velocity.to_vec(),
-                read(&row[format!("{name}_velocity")]),
-            ));
-            compared.push((rate.to_vec(), read(&row[format!("{name}_acceleration")])));
+            let in_axes = pose.velocity_in(axes, velocity);
+            let rate = pose.acceleration_in(axes, velocity, acceleration);
+            for (key, value) in [("velocity", in_axes), ("acceleration", rate)] {
+                compared.push((value.to_vec(), read(&row[format!("{name}_{key}")])));
+            }
         }
         for (found, expected) in compared {
             assert_eq!(found.len(), expected.len());
@@ -415,12 +337,11 @@ int main(void) {
 "#;
 
 fn there(names: &[&'static str]) -> Vec<&'static str> {
-    let version = |name: &&&str| Command::new(name).arg("--version").output();
-    let compilers: Vec<&str> = names
-        .iter()
-        .filter(|name| version(name).is_ok_and(|output| output.status.success()))
-        .copied()
-        .collect();
+    let is_there = |name: &&str| {
+        let version = Command::new(name).arg("--version").output();
+        version.is_ok_and(|output| output.status.success())
+    };
+    let compilers: Vec<&str> = names.iter().copied().filter(is_there).collect();
     if compilers.is_empty() {
         eprintln!("none of {names:?} is here: the header is not compiled");
     }
@@ -438,10 +359,8 @@ fn run(command: &mut Command) -> String {
 fn rust_values<T: Real + Into<f64>>(input: [f64; 25], rounded: fn(f64) -> T) -> Vec<f64> {
     let numbers = input.map(rounded);
     let at = |from: usize| -> [T; 6] { std::array::from_fn(|i| numbers[from + i]) };
-    let pose = Pose {
-        position: std::array::from_fn(|i| numbers[i]),
-        orientation: Quaternion::from_xyzw(std::array::from_fn(|i| numbers[3 + i])),
-    };
+    let [px, py, pz, x, y, z, w, ..] = numbers;
+    let pose = pose_of([px, py, pz], [x, y, z, w]);
     let next = pose.integrate(at(7));
     let mut values = next.position.to_vec();
     values.extend(next.orientation.to_wxyz());
@@ -463,11 +382,8 @@ fn c_returns_the_same_numbers() {
             let mut numbers = pose.position.to_vec();
             numbers.extend(pose.orientation.to_xyzw());
             numbers.extend(step);
-            numbers.extend(
-                step.map(|x| 1.5 - x)
-                    .iter()
-                    .chain(&step.map(|x| x * 3.0 - 0.2)),
-            );
+            numbers.extend(step.map(|x| 1.5 - x));
+            numbers.extend(step.map(|x| x * 3.0 - 0.2));
             numbers.try_into().unwrap()
         })
         .collect();

@@ -25,7 +25,6 @@ pub fn outputs() -> Vec<(&'static str, &'static str)> {
 
 #[pymethods]
 impl Arm {
-    /// Returns the robot's name.
     #[getter]
     fn name(&self) -> &str {
         &self.0.robot().name
@@ -54,12 +53,8 @@ impl Arm {
     /// Returns the name of the base if it floats, and no scene locks it.
     #[getter]
     fn base(&self) -> Option<String> {
-        let base = self
-            .0
-            .robot()
-            .floating
-            .as_ref()
-            .filter(|_| self.0.floats())?;
+        let floating = self.0.robot().floating.as_ref();
+        let base = floating.filter(|_| self.0.floats())?;
         Some(base.name.clone().unwrap_or_else(|| "base".to_owned()))
     }
 
@@ -139,35 +134,33 @@ impl Arm {
     /// Returns the parameters of every link, by their names.
     #[getter]
     fn parameters(&self) -> PyResult<Vec<(String, f64)>> {
-        self.0.parameters().map_err(|error| raised(&error))
+        self.0.parameters().map_err(raised)
     }
 
     /// Returns the robot's numbers in the place of the arguments of `load`, by their names.
     #[getter]
     fn loading(&self) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
-        self.0.loading().map_err(|error| raised(&error))
+        self.0.loading().map_err(raised)
     }
 
     /// Returns the links whose bodies are among them.
     #[getter]
     fn body_links(&self) -> PyResult<Vec<usize>> {
-        self.0.body_links().map_err(|error| raised(&error))
+        self.0.body_links().map_err(raised)
     }
 
     /// Returns the base parameters, by the combinations that they are.
     #[getter]
     fn base_parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, f64)>> {
-        let base = py.detach(|| self.0.base_parameters());
-        base.map_err(|error| raised(&error))
+        py.detach(|| self.0.base_parameters()).map_err(raised)
     }
 
     /// Returns the joints of each limb in the order of `inertia_blocks`.
     #[getter]
     fn limbs(&self) -> PyResult<Vec<Vec<usize>>> {
-        self.0.limbs().map_err(|error| raised(&error))
+        self.0.limbs().map_err(raised)
     }
 
-    /// Returns the notes about the robot and its functions.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.0.notes().to_vec()
@@ -187,16 +180,14 @@ impl Arm {
 
     /// Returns the functions as files of Rust: what their names end in, and their texts.
     fn rust(&self) -> PyResult<Vec<(&'static str, String)>> {
-        self.0.files().map_err(|error| raised(&error))
+        self.0.files().map_err(raised)
     }
 
     /// Returns the functions as one header of C99, with its claim and warnings about it.
     fn c(&self, py: Python<'_>, name: Option<String>) -> PyResult<(String, String, Vec<String>)> {
-        let header = py.detach(|| self.0.c(name));
-        header.map_err(|error| raised(&error))
+        py.detach(|| self.0.c(name)).map_err(raised)
     }
 
-    /// Returns the robot as a robot file.
     #[getter]
     fn robot_file(&self) -> &str {
         self.0.robot_file()

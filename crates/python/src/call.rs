@@ -50,8 +50,10 @@ impl Call<'_> {
         let read = arrays.iter().map(|array| argument(array, &batch, states));
         let (read, _copies): (Vec<Layout<T>>, Vec<Copy<'py, T>>) =
             read.collect::<PyResult<Vec<_>>>()?.into_iter().unzip();
-        if self.refuses_nan {
-            self.refuse_nan(&read)?;
+        for (place, layout) in read.iter().enumerate().filter(|_| self.refuses_nan) {
+            if let Some((state, entry)) = layout.find(|value| value.to_f64().is_nan()) {
+                return Err(self.refused(place, state, entry));
+            }
         }
         let results = convert::arrays::<T>(py, self.name(), self.quantities, &batch, out)?;
         let mut written: Vec<Layout<T>> = Vec::with_capacity(results.len());
@@ -138,15 +140,6 @@ impl Call<'_> {
             Ok(array)
         };
         Some(self.quantities.iter().map(array).collect())
-    }
-
-    fn refuse_nan<T: Real + Element>(&self, arguments: &[Layout<T>]) -> PyResult<()> {
-        for (place, layout) in arguments.iter().enumerate() {
-            if let Some((state, entry)) = layout.find(|value| value.to_f64().is_nan()) {
-                return Err(self.refused(place, state, entry));
-            }
-        }
-        Ok(())
     }
 
     fn refused(&self, place: usize, state: usize, entry: usize) -> PyErr {

@@ -48,7 +48,7 @@ pub(crate) fn array<'py, T: Real + Element>(
     Ok(cast.cast_into::<PyArrayDyn<T>>()?)
 }
 
-pub(crate) fn raised(error: &Error) -> PyErr {
+pub(crate) fn raised(error: Error) -> PyErr {
     match error {
         Error::Function(..) => PyRuntimeError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
@@ -76,9 +76,8 @@ pub(crate) fn arrays<'py, T: Real + Element>(
     };
     if objects.len() != quantities.len() {
         let (found, expected) = (objects.len(), quantities.len());
-        return Err(PyValueError::new_err(format!(
-            "{function}: `out` has {found} arrays, expected {expected}"
-        )));
+        let why = format!("{function}: `out` has {found} arrays, expected {expected}");
+        return Err(PyValueError::new_err(why));
     }
     let checked = |(object, quantity): (Bound<'py, PyAny>, &Quantity)| {
         checked(function, object, quantity.0, &whole(quantity))
@@ -101,9 +100,8 @@ fn checked<'py, T: Real + Element>(
     })?;
     if array.shape() != expected {
         let found = shown(array.shape());
-        return Err(PyValueError::new_err(format!(
-            "{function}: `out` for `{name}` has shape {found}, expected {shape}"
-        )));
+        let why = format!("{function}: `out` for `{name}` has shape {found}, expected {shape}");
+        return Err(PyValueError::new_err(why));
     }
     let is_writeable = array.getattr("flags")?.getattr("writeable")?;
     match is_writeable.extract()? {

@@ -75,7 +75,7 @@ impl Function {
             (quantity.field(), lengths.collect())
         };
         let zeros = match any.output() == Output::Load {
-            true => arm.kept_zeros().map_err(|error| raised(&error))?,
+            true => arm.kept_zeros().map_err(raised)?,
             false => Vec::new(),
         };
         let arguments = any.native().signature().arguments.iter();
@@ -128,23 +128,19 @@ impl Function {
     /// Returns the dtypes that it computes in.
     #[getter]
     fn dtypes(&self) -> Vec<&'static str> {
-        self.compiled()
-            .map(|function| dtype(function.scalar()))
-            .collect()
+        let functions = self.compiled();
+        functions.map(|function| dtype(function.scalar())).collect()
     }
 
     /// Makes it known to compiled programs of JAX, and returns the number by which they call
     /// it. The arm then lives as long as the process.
     fn xla(&self, name: &str) -> PyResult<u64> {
-        let mut places = self.places.iter().copied();
-        let place = places
-            .find(|&place| dtype(self.arm.functions()[place].scalar()) == name)
-            .ok_or_else(|| {
-                let (function, dtypes) = (self.__name__(), self.dtypes().join(" and "));
-                PyTypeError::new_err(format!(
-                    "{function}: arrays are {name}, but the arm computes in {dtypes}"
-                ))
-            })?;
+        let has_name = |place: &&usize| dtype(self.arm.functions()[**place].scalar()) == name;
+        let Some(&place) = self.places.iter().find(has_name) else {
+            let (function, dtypes) = (self.__name__(), self.dtypes().join(" and "));
+            let why = format!("{function}: arrays are {name}, but the arm computes in {dtypes}");
+            return Err(PyTypeError::new_err(why));
+        };
         Ok(xla::register(&self.arm, place))
     }
 
@@ -177,10 +173,8 @@ impl Function {
             self.check_bodies(&mut values)?;
         }
         if threads == 0 {
-            let name = self.__name__();
-            return Err(PyValueError::new_err(format!(
-                "{name}: `threads` is 0, expected 1 or more"
-            )));
+            let why = format!("{}: `threads` is 0, expected 1 or more", self.__name__());
+            return Err(PyValueError::new_err(why));
         }
         let out = out.as_ref().filter(|out| !out.is_none());
         // Of both, floats are for who gives nothing else.
@@ -198,24 +192,18 @@ impl Function {
 impl Function {
     /// Refuses bodies that no body is, and puts them one behind the other.
     fn check_bodies(&self, values: &mut [Bound<'_, PyAny>]) -> PyResult<()> {
-        let signature = self
-            .compiled()
-            .next()
-            .map(|function| function.native().signature());
-        let arguments = signature.iter().flat_map(|signature| &signature.arguments);
+        let functions = self.compiled().take(1);
+        let arguments = functions.flat_map(|function| &function.native().signature().arguments);
         for (value, (argument, length)) in values.iter_mut().zip(arguments) {
-            let name = argument.name();
-            if name == "bodies" {
-                *value = payload::flat(value, *length)?;
-            }
-            if name == "bodies" || name == "payload" {
-                let zeros = if name == "bodies" {
-                    &self.zeros
-                } else {
-                    &[][..]
-                };
-                payload::check(name, value, zeros)?;
-            }
+            let zeros = match argument.name() {
+                "bodies" => {
+                    *value = payload::flat(value, *length)?;
+                    &self.zeros[..]
+                }
+                "payload" => &[],
+                _ => continue,
+            };
+            payload::check(argument.name(), value, zeros)?;
         }
         Ok(())
     }
@@ -257,9 +245,8 @@ impl Function {
             let load = value.cast::<Load>().ok();
             let Some(numbers) = load.map(|load| load.get().numbers.bind(load.py()).clone()) else {
                 let kind = value.get_type();
-                return wrong(format!(
-                    "`load` is {kind}, expected what `arm.load` returns"
-                ));
+                let what = format!("`load` is {kind}, expected what `arm.load` returns");
+                return wrong(what);
             };
             *value = numbers;
         }

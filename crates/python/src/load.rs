@@ -102,8 +102,7 @@ pub fn load(
                 // The next thread takes the allocator's memory of one that has ended, and would
                 // get some more beside one that is about to. A panic has no arm to return.
                 let _ = py.detach(|| thread.join());
-                let arm = loaded.map_err(|error| raised(&error))?;
-                return Ok(Arm(Arc::new(arm)));
+                return Ok(Arm(Arc::new(loaded.map_err(raised)?)));
             }
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("the search ended without a result"));
@@ -174,15 +173,14 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     load.urdf.ignore_ties = options.get("ignore_ties")?.unwrap_or_default();
     load.urdf.acceleration = options.get("acceleration")?.map(acceleration).transpose()?;
     load.urdf.name = options.get("name")?.map(name).transpose()?;
+    let joined = |items: Vec<String>| items.join(",");
     for row in &OPTIONS {
         // The header of C has a name of its own.
         if row.name == "name" {
             continue;
         }
         let value = match row.is_list {
-            true => options
-                .get::<Vec<String>>(row.name)?
-                .map(|items| items.join(",")),
+            true => options.get(row.name)?.map(joined),
             false => options.get::<String>(row.name)?,
         };
         if let Some(value) = value {

@@ -80,22 +80,19 @@ impl<T: Element> Layout<T> {
         unsafe { std::slice::from_raw_parts(self.data, self.length) }
     }
 
-    pub(crate) fn slice_mut(&mut self) -> &mut [T] {
-        if self.length == 0 {
-            return &mut [];
-        }
-        // SAFETY: the head of this file; nobody else has this layout, arguments that share
-        // its memory were copied.
-        unsafe { std::slice::from_raw_parts_mut(self.data, self.length) }
-    }
-
     pub(crate) fn rows(&self) -> (&[T], Place) {
         (self.slice(), self.place.clone())
     }
 
     pub(crate) fn rows_mut(&mut self) -> (&mut [T], Place) {
         let place = self.place.clone();
-        (self.slice_mut(), place)
+        if self.length == 0 {
+            return (&mut [], place);
+        }
+        // SAFETY: the head of this file; nobody else has this layout, arguments that share
+        // its memory were copied.
+        let entries = unsafe { std::slice::from_raw_parts_mut(self.data, self.length) };
+        (entries, place)
     }
 
     pub(crate) fn find(&self, is_such: impl Fn(&T) -> bool) -> Option<(usize, usize)> {
@@ -123,10 +120,8 @@ pub(crate) fn zeros<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
 ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    let mut lengths = shape
-        .iter()
-        .map(|&x| x.try_into())
-        .collect::<Result<Vec<npy_intp>, _>>()?;
+    let lengths = shape.iter().map(|&length| length.try_into());
+    let mut lengths = lengths.collect::<Result<Vec<npy_intp>, _>>()?;
     let dtype = T::get_dtype(py).into_ptr().cast();
     // SAFETY: the lengths are as many as is said, and the call takes the reference to the dtype.
     let array = unsafe {

@@ -18,61 +18,27 @@ fn numbers(pose: &Pose<f64>) -> Vec<f64> {
     [&pose.position[..], &pose.orientation.to_xyzw()].concat()
 }
 
-fn six(row: &[f64], from: usize) -> Option<[f64; 6]> {
-    row.get(from..)?.first_chunk().copied()
-}
-
-fn axes(name: &str) -> Option<Axes> {
-    match name {
+/// Computes an operation of a row, a pose and the numbers behind it; the operation is a name, with
+/// the axes behind a space.
+fn computed(operation: &str, row: &[f64]) -> Option<Vec<f64>> {
+    let (name, in_axes) = operation.split_once(' ').unwrap_or((operation, ""));
+    let axes = match in_axes {
         "mixed" => Some(Axes::Mixed),
         "world" => Some(Axes::World),
         "split" => Some(Axes::Split),
         _ => None,
-    }
-}
-
-type Row = Box<dyn Fn(&Pose<f64>, &[f64]) -> Option<Vec<f64>>>;
-
-/// Returns an operation by its name, with the axes behind a space: of a pose and the numbers behind
-/// it, which are nothing if they are too few.
-fn operation(text: &str) -> Option<Row> {
-    let (name, in_axes) = text.split_once(' ').unwrap_or((text, ""));
-    let axes = || axes(in_axes);
+    };
+    let (here, rest) = (pose(row)?, row.get(7..)?);
+    let [twist, rate] = [0, 6].map(|from| rest.get(from..)?.first_chunk().copied());
     Some(match name {
-        "rotate" => {
-            Box::new(|here, rest| Some(here.orientation.rotate(*rest.first_chunk()?).to_vec()))
-        }
-        "rotate_back" => {
-            Box::new(|here, rest| Some(here.orientation.rotate_back(*rest.first_chunk()?).to_vec()))
-        }
-        "integrate" => Box::new(|here, rest| Some(numbers(&here.integrate(six(rest, 0)?)))),
-        "difference" => Box::new(|here, rest| Some(here.difference(&pose(rest)?).to_vec())),
-        "velocity_in" => {
-            let axes = axes()?;
-            Box::new(move |here, rest| Some(here.velocity_in(axes, six(rest, 0)?).to_vec()))
-        }
-        "velocity_from" => {
-            let axes = axes()?;
-            Box::new(move |here, rest| Some(here.velocity_from(axes, six(rest, 0)?).to_vec()))
-        }
-        "acceleration_in" => {
-            let axes = axes()?;
-            Box::new(move |here, rest| {
-                Some(
-                    here.acceleration_in(axes, six(rest, 0)?, six(rest, 6)?)
-                        .to_vec(),
-                )
-            })
-        }
-        "acceleration_from" => {
-            let axes = axes()?;
-            Box::new(move |here, rest| {
-                Some(
-                    here.acceleration_from(axes, six(rest, 0)?, six(rest, 6)?)
-                        .to_vec(),
-                )
-            })
-        }
+        "rotate" => here.orientation.rotate(*rest.first_chunk()?).to_vec(),
+        "rotate_back" => here.orientation.rotate_back(*rest.first_chunk()?).to_vec(),
+        "integrate" => numbers(&here.integrate(twist?)),
+        "difference" => here.difference(&pose(rest)?).to_vec(),
+        "velocity_in" => here.velocity_in(axes?, twist?).to_vec(),
+        "velocity_from" => here.velocity_from(axes?, twist?).to_vec(),
+        "acceleration_in" => here.acceleration_in(axes?, twist?, rate?).to_vec(),
+        "acceleration_from" => here.acceleration_from(axes?, twist?, rate?).to_vec(),
         _ => return None,
     })
 }
@@ -85,8 +51,7 @@ pub fn pose_rows<'py>(
     rows: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let wrong = || PyValueError::new_err(format!("no operation `{name}` on such rows"));
-    let of = operation(name).ok_or_else(wrong)?;
     let rows = rows.as_slice()?.chunks(rows.shape()[1].max(1));
-    let results: Option<Vec<Vec<f64>>> = rows.map(|row| of(&pose(row)?, row.get(7..)?)).collect();
+    let results: Option<Vec<Vec<f64>>> = rows.map(|row| computed(name, row)).collect();
     Ok(PyArray2::from_vec2(py, &results.ok_or_else(wrong)?)?)
 }

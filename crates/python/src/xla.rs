@@ -34,9 +34,8 @@ pub(crate) fn run<T: Real>(
     let found = [arguments.len(), results.len()];
     let expected = [lengths.len(), signature.results.len()];
     if found != expected {
-        return Err(format!(
-            "expected {expected:?} arguments and results, found {found:?}"
-        ));
+        let expected = format!("expected {expected:?} arguments and results");
+        return Err(format!("{expected}, found {found:?}"));
     }
     let states = match (arguments.first(), lengths.first()) {
         (Some(first), Some(length)) => first.len() / length,
@@ -44,20 +43,15 @@ pub(crate) fn run<T: Real>(
     };
     let whole = |(count, length): (usize, &usize)| count == states * length;
     let mut read = arguments.iter().map(|data| data.len()).zip(&lengths);
-    let mut written = results
-        .iter()
-        .map(|data| data.len())
-        .zip(&signature.results);
+    let written = results.iter().map(|data| data.len());
     let name = function.name();
-    if !(read.all(whole) && written.all(whole)) {
+    if !(read.all(whole) && written.zip(&signature.results).all(whole)) {
         let expected = format!("{lengths:?} numbers of {states} states");
         return Err(format!("{name}: expected {expected}"));
     }
-    let places = |lengths: &[usize]| -> Vec<Place> {
-        lengths.iter().map(|&length| Place::rows(length)).collect()
-    };
-    let rows = arguments.iter().copied().zip(places(&lengths));
-    let out = results.into_iter().zip(places(&signature.results));
+    let place = |&length: &usize| Place::rows(length);
+    let rows = arguments.iter().copied().zip(lengths.iter().map(place));
+    let out = results.into_iter().zip(signature.results.iter().map(place));
     let (rows, mut out): (Vec<_>, Vec<_>) = (rows.collect(), out.collect());
     let done = native.call_rows(&rows, &mut out, states, 1);
     done.map_err(|error| format!("{name}: {error}"))

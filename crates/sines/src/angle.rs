@@ -53,10 +53,9 @@ pub fn rest<T: Angle, P: Products<T>, V: Number<T>>(x: V) -> (V, V, V) {
     (shifted, sin, cos)
 }
 
-/// Returns sine and cosine of the angle from those of what is left of it. The last
-/// two bits of the shifted count say by how many quarter turns: an odd one
-/// exchanges them, the second bit is the sine's sign, and that of the
-/// count plus one the cosine's.
+/// Returns sine and cosine of the angle from those of what is left of it. The last two bits of the
+/// shifted count say by how many quarter turns: an odd one exchanges them, the second bit is the
+/// sine's sign, and that of the count plus one the cosine's.
 #[inline(always)]
 pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, V) {
     let one = shifted.power(0);

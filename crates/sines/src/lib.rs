@@ -1,5 +1,4 @@
-//! Sine and cosine of several angles at once, within one ulp, the same bits on
-//! every machine.
+//! Sine and cosine of several angles at once, within one ulp, the same bits on every machine.
 //!
 //! ```
 //! let ([s1, s2], [c1, c2]) = dalembert_sines::sincos(&[0.5, 1e22]);
@@ -7,12 +6,11 @@
 //! assert!(s1 * s1 + c1 * c1 - 1.0 < 1e-15 && s2 == libm::sin(1e22));
 //! ```
 //!
-//! A library's sine has branches: which quarter turn, how large. Here there are
-//! none up to [`LARGEST`] ([`LARGEST_F32`]), so that one vector instruction computes
-//! as many angles as the processor has room for: two or four doubles, four or eight
-//! floats. Beyond, and for what is no number, the answer is libm's: exact reduction
-//! by Payne and Hanek's method, NaN for NaN and the infinities. One comparison
-//! for all angles together says whether that is needed.
+//! A library's sine has branches: which quarter turn, how large. Here there are none up to
+//! [`LARGEST`] ([`LARGEST_F32`]), so that one vector instruction computes as many angles as the
+//! processor has room for: two or four doubles, four or eight floats. Beyond, and for what is no
+//! number, the answer is libm's: exact reduction by Payne and Hanek's method, NaN for NaN and the
+//! infinities. One comparison for all angles together says whether that is needed.
 //!
 //! The vectors are those of the crate `wide`, and all is inlined: what a compiler
 //! makes of loops over arrays, it tears apart next to scalar arithmetic (with AVX-512,
@@ -24,18 +22,15 @@
 //! Where nothing is optimised, or the processor has no vectors, they are computed one
 //! after the other in a call: not optimised, in 2.8 times libm's time.
 //!
-//! Each angle is computed for itself: among others it gets the bits that it
-//! gets alone. Nothing fuses a multiplication with an addition and no
-//! platform's library is called, so every machine computes the same; f32 never
-//! computes in f64, but for libm's part. It takes `core` alone, no allocator and
-//! no unsafe code.
+//! Each angle is computed for itself: among others it gets the bits that it gets alone. Nothing
+//! fuses a multiplication with an addition and no platform's library is called, so every machine
+//! computes the same; f32 never computes in f64, but for libm's part. It takes `core` alone.
 //!
 //! # The error
 //!
-//! u is 2⁻⁵³ in f64 and 2⁻²⁴ in f32, an ulp is the distance of the floats where
-//! the true value is. **Proved** below: sines within 0.90 ulp and cosines within
-//! 0.85 ulp, in both scalars. **Measured** (`tests/accuracy.rs`): every f32 in
-//! range, and more than 10⁸ f64 with those nearest to every multiple of π/4:
+//! u is 2⁻⁵³ in f64 and 2⁻²⁴ in f32, an ulp is the distance of the floats where the true value is.
+//! **Proved** below: sines within 0.90 ulp and cosines within 0.85 ulp. **Measured**
+//! (`tests/accuracy.rs`): every f32 in range, and 10⁸ f64 with the nearest to multiples of π/4:
 //!
 //! | | sine | cosine |
 //! |---|---|---|
@@ -44,10 +39,9 @@
 //!
 //! ## What is left of the angle
 //!
-//! k is x·2/π to the nearest integer: x·(2/π) + 1.5·2^(p−1) is rounded to one.
-//! The product errs by less than |k|·2u, so |x − kπ/2| ≤ π/4 + |k|·πu < 0.7854,
-//! in f32 0.78545. π/2 is P₁ + P₂ + P₃ with bits so few that k·P₁ and k·P₂ are
-//! exact (`tests.rs` tries every k). Then
+//! k is x·2/π to the nearest integer: x·(2/π) + 1.5·2^(p−1) is rounded to one. The product errs by
+//! less than |k|·2u, so |x − kπ/2| ≤ π/4 + |k|·πu < 0.7854, in f32 0.78545. π/2 is P₁ + P₂ + P₃
+//! with bits so few that k·P₁ and k·P₂ are exact (`tests.rs` tries every k). Then
 //!
 //! - x − k·P₁ is exact: both are multiples of 2⁻⁵³ (2⁻²⁴) and it is less than
 //!   one; below |x| = 1/2 there is nothing to subtract.
@@ -58,11 +52,9 @@
 //!   error of 2u·|k·P₃| + u²·|r|, and k·|π/2 − P₁ − P₂ − P₃| is missing. In f64
 //!   the first and the last are below 2⁻¹²⁰ and 2⁻¹²², in f32 2⁻⁵⁵ and 2⁻⁵⁷.
 //!
-//! No f64 in range comes nearer to a multiple of π/2 than 2⁻⁶⁰·⁵, no f32 nearer
-//! than 2⁻²⁶·⁴ (`tests.rs`, by all multiples). So what is left is known to
-//! 2⁻⁵⁹ (2⁻²⁸) of itself: 0.06 ulp for the smallest, where nothing below adds to
-//! it, and nothing that counts for those that are not small. Where k is 0,
-//! nothing is lost.
+//! No f64 in range comes nearer to a multiple of π/2 than 2⁻⁶⁰·⁵, no f32 nearer than 2⁻²⁶·⁴
+//! (`tests.rs`, by all multiples). So what is left is known to 2⁻⁵⁹ (2⁻²⁸) of itself: 0.06 ulp for
+//! the smallest, where nothing below adds to it, and nothing for others, or where k is 0.
 //!
 //! ## The sine of r and ℓ
 //!
@@ -79,9 +71,8 @@
 //! | S against the series: 2⁻⁵⁷·⁶ (2⁻²⁷·⁶) of the sine | 0.030 u (0.059 u) |
 //! | ℓ·(cos r − 1 + z/2), with 2·abs(ℓ) ≤ u | 0.008 u |
 //!
-//! Together 0.395 u in f64. In f32, where S ends in one such operation, 0.365 u:
-//! less than 0.90 ulp with the half. Between 1/4 and 1/2 an ulp is half as
-//! large and r³ a third: 0.25 ulp in place of 0.40, and less and less below.
+//! Together 0.395 u in f64, in f32, where S ends in one such operation, 0.365 u: with the half below
+//! 0.90 ulp. From 1/4 to 1/2 an ulp is half as large and r³ a third: 0.25 ulp, and less below.
 //!
 //! ## The cosine
 //!
@@ -104,9 +95,8 @@
 //!
 //! ## Fused products
 //!
-//! Batches of functions whose products are fused fuse them here as well. What is exact
-//! above stays so, and each fused product takes away a rounding: the generator's proof
-//! gives 0.83 u for both, in both scalars.
+//! Batches of functions whose products are fused fuse them here as well. What is exact above stays
+//! so, and each fused product saves a rounding: the generator's proof gives 0.83 u for both.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -157,8 +147,7 @@ pub const LARGEST: f64 = 8192.0;
 /// [`LARGEST`] in f32: 15 turns.
 pub const LARGEST_F32: f32 = 100.0;
 
-/// Sines and cosines, in the order of the angles, each within
-/// [one ulp](crate#the-error).
+/// Sines and cosines, in the order of the angles, each within [one ulp](crate#the-error).
 ///
 /// ```
 /// let (sin, cos) = dalembert_sines::sincos(&[0.0, -0.0, 1.0]);

@@ -43,22 +43,18 @@ impl<T> Products<T> for Rounded {
     fn of<V: Number<T>>(left: V, right: V) -> V {
         left * right
     }
-
     #[inline(always)]
     fn plus<V: Number<T>>(product: V, addend: V) -> V {
         product + addend
     }
-
     #[inline(always)]
     fn less<V: Number<T>>(product: V, number: V) -> V {
         product - number
     }
-
     #[inline(always)]
     fn added<V: Number<T>>(number: V, product: V) -> V {
         number + product
     }
-
     #[inline(always)]
     fn taken<V: Number<T>>(number: V, product: V) -> V {
         number - product
@@ -76,30 +72,25 @@ impl<T> Products<T> for Fused {
     fn of<V: Number<T>>(left: V, right: V) -> (V, V) {
         (left, right)
     }
-
     #[inline(always)]
     fn plus<V: Number<T>>((left, right): (V, V), addend: V) -> V {
         left.fused(right, addend)
     }
-
     #[inline(always)]
     fn less<V: Number<T>>((left, right): (V, V), number: V) -> V {
         left.fused(right, -number)
     }
-
     #[inline(always)]
     fn added<V: Number<T>>(number: V, (left, right): (V, V)) -> V {
         left.fused(right, number)
     }
-
     #[inline(always)]
     fn taken<V: Number<T>>(number: V, (left, right): (V, V)) -> V {
         (-left).fused(right, number)
     }
 }
 
-/// Floats of known bits: one, or a vector of them. In generated code the other operand may be one
-/// float for all.
+/// Floats of known bits, one or a vector; the other operand may be one float for all.
 pub trait Floats<T>:
     Number<T>
     + Div<Output = Self>
@@ -131,7 +122,6 @@ macro_rules! scalar {
             fn all(self, value: $float) -> $float {
                 value
             }
-
             #[inline(always)]
             fn fused(self, factor: $float, addend: $float) -> $float {
                 libm::$fma(self, factor, addend)
@@ -145,22 +135,18 @@ macro_rules! scalar {
             fn bits(self) -> Self::Bits {
                 Wrapping(self.to_bits())
             }
-
             #[inline(always)]
             fn of_bits(bits: Self::Bits) -> $float {
                 $float::from_bits(bits.0)
             }
-
             #[inline(always)]
             fn power(self, exponent: usize) -> Self::Bits {
                 Wrapping(1 << exponent)
             }
-
             #[inline(always)]
             fn raised(bits: Self::Bits) -> Self::Bits {
                 bits << ($bits::BITS as usize - 2)
             }
-
             #[inline(always)]
             fn are_within(self, largest: $float) -> bool {
                 self.abs() <= largest
@@ -171,8 +157,7 @@ macro_rules! scalar {
 scalar!(f64, u64, fma);
 scalar!(f32, u32, fmaf);
 
-/// Two numbers side by side: what is done with one is done with the other in between, so that
-/// neither has to wait for itself.
+/// Two numbers side by side: each operation is done with both, so that neither waits for itself.
 #[derive(Clone, Copy)]
 pub struct Pair<V>(pub V, pub V);
 
@@ -202,7 +187,6 @@ impl<T: Copy, V: Number<T>> Number<T> for Pair<V> {
     fn all(self, value: T) -> Self {
         Pair(self.0.all(value), self.1.all(value))
     }
-
     #[inline(always)]
     fn fused(self, factor: Self, addend: Self) -> Self {
         let first = self.0.fused(factor.0, addend.0);

@@ -1,6 +1,5 @@
-//! The numbers that the proof in the crate's documentation takes, from exact
-//! arithmetic: constants, the polynomials' errors, and how near angles come to
-//! multiples of π/2.
+//! The numbers that the proof in the crate's documentation takes, from exact arithmetic: constants,
+//! the polynomials' errors, and how near angles come to multiples of π/2.
 
 extern crate std;
 
@@ -32,9 +31,8 @@ fn quarter() -> Rational {
     Turn::right_angles(1).radians()
 }
 
-/// Returns an upper bound of |Σ c_k z^k| over 0 ≤ z ≤ top: the polynomial is written
-/// about the middle of each of many pieces, where the sum of its coefficients'
-/// magnitudes is next to its largest value.
+/// Returns an upper bound of |Σ c_k z^k| over 0 ≤ z ≤ top: about the middle of each of many pieces,
+/// the sum of the polynomial's coefficients' magnitudes is next to its largest value.
 fn largest(coefficients: &[Rational], top: &Rational, pieces: u64) -> Rational {
     let radius = top / whole(2 * pieces);
     let piece = |index: u64| {
@@ -51,8 +49,7 @@ fn largest(coefficients: &[Rational], top: &Rational, pieces: u64) -> Rational {
     (0..pieces).map(piece).max().unwrap()
 }
 
-/// Returns Taylor's coefficients 1/first!, −1/(first + 2)!, …, and a bound of what the
-/// others add where r² ≤ 1.
+/// Returns Taylor's coefficients 1/first!, −1/(first + 2)!, …, and a bound of the rest for r² ≤ 1.
 fn taylor(first: u64, terms: u64) -> (Vec<Rational>, Rational) {
     let factorial = |n: u64| (1..=n).fold(whole(1), |product, k| product * whole(k));
     let term = |k: u64| {
@@ -77,8 +74,7 @@ fn error(polynomial: &[f64], first: u64, power: usize, reach: f64) -> f64 {
     bits(&(largest(&difference, &top, 64) + rest))
 }
 
-/// For the sine, r²·Δp over sin r/r ≥ 0.9003 is the relative error; for the cosine
-/// r⁴·Δp is the absolute one.
+/// The relative error of the sine is r²·Δp over sin r/r ≥ 0.9003, the cosine's absolute one r⁴·Δp.
 #[test]
 fn polynomials_are_as_near_as_stated() {
     let sine = SINE_F32.map(f64::from);
@@ -124,10 +120,8 @@ fn the_parts_are_of_a_quarter_turn() {
         }
         let sum = parts.iter().fold(whole(0), |sum, part| sum + exact(*part));
         let exponent = bits(&magnitude(quarter() - sum));
-        assert!(
-            exponent < missing && exponent > missing - 0.5,
-            "2^{exponent}"
-        );
+        let is_as_stated = exponent < missing && exponent > missing - 0.5;
+        assert!(is_as_stated, "2^{exponent}");
     }
 }
 
@@ -140,10 +134,9 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
         };
         bits(&(1..=most).map(distance).min().unwrap())
     };
+    let in_single = |x: &Rational| f32::nearest_rational(x).into();
     let double = nearest(counts(f64::LARGEST) + 1, f64::nearest_rational);
-    let single = nearest(counts(f32::LARGEST.into()) + 1, |x| {
-        f32::nearest_rational(x).into()
-    });
+    let single = nearest(counts(f32::LARGEST.into()) + 1, in_single);
     assert!((-60.49..-60.48).contains(&double), "{double}");
     assert!((-26.33..-26.32).contains(&single), "{single}");
 }

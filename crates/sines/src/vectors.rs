@@ -28,9 +28,8 @@ impl Vectored for f32 {
     type Wide = EightFloats;
 }
 
-/// Sines and cosines of any number of angles: in vectors where the processor has some
-/// and code is optimised, so that the angles are put into them where they are computed
-/// and their sines are taken out where they are needed; else by a call.
+/// Sines and cosines of any number of angles: in vectors where the processor has some and code is
+/// optimised, so that angles and sines go in and out where they are computed; else by a call.
 #[inline(always)]
 pub(crate) fn all<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     const VECTORS: bool = cfg!(any(
@@ -66,9 +65,8 @@ pub(crate) fn together<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N],
 pub trait Vector<T: Angle>: Floats<T> {
     const LANES: usize;
 
-    /// Sines and cosines of so many angles from one on, and whether the polynomials
-    /// were for all of them. What is past the last is computed of that once more: of
-    /// zeros, compilers would leave out lanes, and with them the vector.
+    /// Sines and cosines of so many angles from one on, and whether the polynomials were for all of
+    /// them. The last fills what is past it: with zeros, compilers would leave out the vector.
     fn sincos<const N: usize>(
         angles: &[T; N],
         sines: &mut [T; N],
@@ -146,17 +144,14 @@ macro_rules! vector {
             fn bits(self) -> $bits {
                 cast(self.0)
             }
-
             #[inline(always)]
             fn of_bits(bits: $bits) -> Self {
                 $vector(cast(bits))
             }
-
             #[inline(always)]
             fn power(self, exponent: usize) -> $bits {
                 $bits::splat(1 << exponent)
             }
-
             #[inline(always)]
             fn raised(bits: $bits) -> $bits {
                 bits << ($float::SIGN as u32 - 1)
@@ -173,8 +168,7 @@ macro_rules! vector {
         impl Vector<$float> for $vector {
             const LANES: usize = $lanes;
 
-            // Loops over indices: closures and iterators are inlined where a crate's
-            // parts are optimised together, and not for certain elsewhere.
+            // Loops over indices: only they are inlined for certain, not closures and iterators.
             #[inline(always)]
             fn sincos<const N: usize>(
                 angles: &[$float; N],
@@ -216,12 +210,10 @@ macro_rules! batched {
             pub fn from_array(array: [$float; $lanes]) -> Self {
                 $vector($wide::new(array))
             }
-
             #[inline(always)]
             pub fn to_array(self) -> [$float; $lanes] {
                 self.0.to_array()
             }
-
             #[inline(always)]
             pub fn root(self) -> Self {
                 $vector(self.0.sqrt())

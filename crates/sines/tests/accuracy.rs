@@ -1,5 +1,4 @@
-//! The error in ulps: of f64 against pairs of doubles, of f32 against libm's
-//! f64, whose error is 2⁻²⁸ ulp of f32.
+//! The error in ulps: of f64 against pairs of doubles, of f32 against libm's f64 (to 2⁻²⁸ ulp).
 //!
 //! Some points always; a hundred million, and every f32, by hand:
 //! `cargo test --release -p dalembert-sines -- --ignored --nocapture`.
@@ -102,8 +101,7 @@ fn singles(bits: impl Iterator<Item = u32>) {
             let error = |result: f32, exact: f64| {
                 let near = (exact as f32).abs();
                 let size = f64::from(near.next_up()) - f64::from(near);
-                // Where rounding to f32 reaches the next power of two, an ulp below it is half as
-                // large.
+                // Where rounding to f32 reaches the next power of two, an ulp below is half of it.
                 let below = f64::from(near) > exact.abs() && near.to_bits().is_multiple_of(1 << 23);
                 let size = if below { size / 2.0 } else { size };
                 (f64::from(result) - exact).abs() / size

@@ -1,5 +1,4 @@
-//! Angles that are no ordinary numbers, and that every angle is computed for
-//! itself: the same bits alone, among others and beside unusual ones.
+//! Unusual angles, and that each is computed for itself: the same bits alone and among others.
 
 use dalembert_sines::{LARGEST, LARGEST_F32, sincos, sincosf};
 

@@ -67,11 +67,8 @@ pub struct Noticed {
 fn target(time: f64) -> [Joints; 3] {
     let centre = [0.2, -1.2, 1.6, -1.9, -1.4, 0.3];
     let (s, c) = time.sin_cos();
-    [
-        centre.map(|q| q + 0.2 * (1.0 - c)),
-        [0.2 * s; ur10::N],
-        [0.2 * c; ur10::N],
-    ]
+    let q = centre.map(|q| q + 0.2 * (1.0 - c));
+    [q, [0.2 * s; ur10::N], [0.2 * c; ur10::N]]
 }
 
 /// Simulates the pushed arm for `duration` seconds; returns the observer's results.

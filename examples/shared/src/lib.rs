@@ -54,10 +54,8 @@ pub fn assert_shown(program: &str, page: &str) {
     let output = Command::new(program).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{output:?}");
-    assert!(
-        page.contains(&*text),
-        "the page shows something else:\n{text}"
-    );
+    let is_shown = page.contains(&*text);
+    assert!(is_shown, "the page shows something else:\n{text}");
 }
 
 #[cfg(test)]

@@ -139,11 +139,9 @@ impl Report {
         }
         let (_, forces) = accelerations(state, stance, tau);
         for force in forces.chunks(3) {
-            let force = state
-                .pose
-                .orientation
-                .rotate([force[0], force[1], force[2]]);
-            self.least_force = self.least_force.min(force[2]);
+            let orientation = &state.pose.orientation;
+            let [.., up] = orientation.rotate([force[0], force[1], force[2]]);
+            self.least_force = self.least_force.min(up);
         }
     }
 }

@@ -63,12 +63,8 @@ impl fmt::Display for NotAsked {
 fn is_near(name: &str, word: &str) -> bool {
     let (one, other) = (name.as_bytes(), word.as_bytes());
     let before = one.iter().zip(other).take_while(|(a, b)| a == b).count();
-    let behind = one
-        .iter()
-        .rev()
-        .zip(other.iter().rev())
-        .take_while(|(a, b)| a == b)
-        .count();
+    let reversed = one.iter().rev().zip(other.iter().rev());
+    let behind = reversed.take_while(|(a, b)| a == b).count();
     let longest = one.len().max(other.len());
     longest > 1 && before + behind + 1 >= longest && one.len().abs_diff(other.len()) <= 1
 }
@@ -180,11 +176,8 @@ impl std::str::FromStr for Asked {
 
     fn from_str(text: &str) -> Result<Asked, NotAsked> {
         let mut asked = Asked::default();
-        for option in text
-            .split(';')
-            .map(str::trim)
-            .filter(|option| !option.is_empty())
-        {
+        let options = text.split(';').map(str::trim);
+        for option in options.filter(|option| !option.is_empty()) {
             let (name, value) = option.split_once(':').unwrap_or((option, ""));
             asked.set(name.trim(), value)?;
         }

@@ -60,8 +60,7 @@ pub struct Stamp {
     pub asked: Asked,
 }
 
-/// Returns the hash of a text: the first half of its SHA-256, in hexadecimal digits. Line ends may
-/// be of either kind.
+/// Returns the hash of a text with either line ends: the first half of its SHA-256, in hexadecimal.
 pub fn hash(text: &str) -> String {
     let mut hash = hmac_sha256::Hash::new();
     text.split('\r').for_each(|part| hash.update(part));
@@ -90,8 +89,7 @@ pub fn is_as_written(file: &str) -> Option<bool> {
     }
     let (first, text) = file.split_once('\n')?;
     let (_, tail) = first.rsplit_once(SEAL)?;
-    let text_hash = tail.split_whitespace().next()?;
-    Some(text_hash == hash(text))
+    Some(tail.split_whitespace().next()? == hash(text))
 }
 
 /// Returns why a file with these bytes may not be replaced: `edited` since it was written, or `foreign`;
@@ -141,10 +139,8 @@ fn whole(path: &Path) -> PathBuf {
 /// Returns the path of a robot file from the folder of a file, with `/` between folders; the whole
 /// path where none leads there.
 pub fn relative(robot: &Path, file: &Path) -> String {
-    let folder = match file.parent() {
-        Some(folder) if folder != Path::new("") => whole(folder),
-        _ => whole(Path::new(".")),
-    };
+    let parent = file.parent().filter(|folder| *folder != Path::new(""));
+    let folder = whole(parent.unwrap_or(Path::new(".")));
     let robot = whole(robot);
     let from: Vec<Component> = folder.components().collect();
     let to: Vec<Component> = robot.components().collect();
@@ -203,8 +199,7 @@ impl Stamp {
         )
     }
 
-    /// Reads the stamp of a file, and whether the text is as it was written; `None` of a file
-    /// that has no stamp.
+    /// Reads the stamp of a file, if it has one, and whether the text is as it was written.
     pub fn read(file: &str) -> Option<(Stamp, bool)> {
         let mut comments = [Comment::Line, Comment::Block].into_iter();
         comments.find_map(|comment| Stamp::read_as(comment, file))
@@ -373,13 +368,8 @@ mod tests {
 
     #[test]
     fn an_edit_breaks_the_seal() {
-        for comment in [
-            Comment::Line,
-            Comment::Block,
-            Comment::Toml,
-            Comment::Xml,
-            Comment::Tex,
-        ] {
+        use Comment::{Block, Line, Tex, Toml, Xml};
+        for comment in [Line, Block, Toml, Xml, Tex] {
             let sealed = sealed(comment, "test", ROBOT);
             assert_eq!(is_as_written(&sealed), Some(true), "{sealed}");
             assert_eq!(is_as_written(&sealed.replace('\n', "\r\n")), Some(true));

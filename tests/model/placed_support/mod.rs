@@ -228,14 +228,11 @@ fn parameters(arm: &Arm) -> DVector<f64> {
         for Body { mass, com, inertia } in &joint.bodies {
             let tensor =
                 inertia + *mass * (Matrix3::identity() * com.dot(com) - com * com.transpose());
-            let first = com.iter().map(|x| mass * x);
-            let moments = [*mass]
-                .into_iter()
-                .chain(first)
-                .chain(PLACES.map(|place| tensor[place]));
-            sum.iter_mut()
-                .zip(moments)
-                .for_each(|(sum, moment)| *sum += moment);
+            let (first, second) = (com * *mass, PLACES.map(|place| tensor[place]));
+            let moments = [&[*mass][..], first.as_slice(), &second].concat();
+            for (sum, moment) in sum.iter_mut().zip(moments) {
+                *sum += moment;
+            }
         }
         sum
     };
@@ -256,17 +253,13 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
         let torques = vector(&torques);
         let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
         worst = worst.max((tau - &torques).amax() / torques.amax());
-        let vectors = [Position, Velocity, Acceleration]
-            .into_iter()
-            .zip([&q, &qd, &qdd].map(Clone::clone));
+        let pairs = [(Position, &q), (Velocity, &qd), (Acceleration, &qdd)];
+        let vectors = pairs.map(|(argument, vector)| (argument, vector.clone()));
         let y = runtime.entries(Quantity::LinkRegressor, &JointVectors::new(vectors));
         let y = DMatrix::from_row_slice(n, 10 * n, &y.unwrap());
         let pi = parameters(arm);
-        let drives = arm
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(i, joint)| joint.viscous * qd[i] + joint.armature * qdd[i]);
+        let drive = |(i, joint): (usize, &Joint)| joint.viscous * qd[i] + joint.armature * qdd[i];
+        let drives = arm.joints.iter().enumerate().map(drive);
         let product = &y * &pi + DVector::from_iterator(n, drives);
         let size = (y.abs() * pi.abs()).amax().max(torques.amax());
         worst = worst.max((product - &torques).amax() / size);

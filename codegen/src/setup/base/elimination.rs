@@ -64,14 +64,11 @@ impl ColumnBasis<Exact> {
         }
         let both = first.coefficients.iter().zip(&second.coefficients);
         let coefficients = both.map(|(factors, others)| {
-            let terms: Option<Vec<(usize, Exact)>> = factors
-                .iter()
-                .zip(others)
-                .map(|((place, x), (other, y))| {
-                    let ratio = fraction(*x, *y).filter(|_| place == other);
-                    Some((*place, Exact::from(ratio?)))
-                })
-                .collect();
+            let ratios = factors.iter().zip(others).map(|((place, x), (other, y))| {
+                let ratio = fraction(*x, *y).filter(|_| place == other);
+                Some((*place, Exact::from(ratio?)))
+            });
+            let terms: Option<Vec<(usize, Exact)>> = ratios.collect();
             terms.filter(|_| factors.len() == others.len())
         });
         Some(ColumnBasis {
@@ -97,18 +94,14 @@ pub(super) fn reduced<const P: u64>(columns: Vec<Vec<Modulo<P>>>) -> ColumnBasis
                 continue;
             }
             subtract(&mut column, &factor, other);
-            let added = over.iter().map(|x| x.mul(&factor));
-            for (sum, x) in factors.iter_mut().zip(added) {
-                *sum = sum.add(&x);
+            for (sum, x) in factors.iter_mut().zip(over) {
+                *sum = sum.add(&x.mul(&factor));
             }
         }
         let Some(row) = column.iter().position(|x| *x != Modulo::ZERO) else {
-            let coefficients = factors
-                .into_iter()
-                .enumerate()
-                .filter(|(_, x)| *x != Modulo::ZERO)
-                .collect();
-            basis.coefficients.push(coefficients);
+            let combination = factors.into_iter().enumerate();
+            let nonzero = combination.filter(|(_, x)| *x != Modulo::ZERO);
+            basis.coefficients.push(nonzero.collect());
             continue;
         };
         // The rest of the column, (column − Σ factors · pivots) / its entry.
@@ -183,10 +176,8 @@ mod tests {
     #[test]
     fn a_fraction_of_one_prime_alone_is_none() {
         let digits = "3141592653589793238462643383279502884197169399375105820974944";
-        let pi = Rational::new(
-            digits.parse().unwrap(),
-            num_bigint::BigInt::from(10).pow(60),
-        );
+        let scale = num_bigint::BigInt::from(10).pow(60);
+        let pi = Rational::new(digits.parse().unwrap(), scale);
         let mut points = Points::new(7);
         let mut seeming = 0;
         for round in 0..1000 {

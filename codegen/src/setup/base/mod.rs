@@ -15,12 +15,10 @@
 //! [`crate::verify::parameters`] proves it.
 //!
 //! - `moments`: the moments that links keep; `origins`: about which points
-//! - `names`: combinations in words
 //! - `elimination`: columns at random states, modulo a prime, and which depend on others
 
 mod elimination;
 mod moments;
-mod names;
 mod origins;
 
 use std::fmt;
@@ -33,8 +31,10 @@ use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of
 use dalembert_model::number::Exact;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
+use num_traits::{One, Signed};
 
 use super::Setup;
+use crate::figures::decimal;
 use crate::function::Quantity;
 use elimination::{ColumnBasis, reduced, values};
 use moments::{MAX_TERMS, Moment, kept, parts};
@@ -170,30 +170,24 @@ impl BaseParameters {
             reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
         )
         .ok_or_else(irrational)?;
-        let columns: Vec<Column<Exact>> = reduced
-            .pivots
-            .iter()
-            .map(|&c| candidates[c].clone())
-            .collect();
+        let pivots = reduced.pivots.iter();
+        let columns: Vec<Column<Exact>> = pivots.map(|&c| candidates[c].clone()).collect();
         let mut combinations = vec![Vec::new(); columns.len()];
         let coefficients = &reduced.coefficients;
         let of_bodies: Vec<Parameter> = Parameter::of_bodies(robot).collect();
         let on_base = chain.base_probes.iter().map(|probe| (None, probe));
-        let on_links = chain
-            .links
-            .iter()
-            .enumerate()
-            .flat_map(|(link, chain_link)| {
-                let probes = chain_link.probes.iter();
-                probes.map(move |probe| (Some(link), probe))
-            });
+        let links = chain.links.iter().enumerate();
+        let on_links = links.flat_map(|(link, chain_link)| {
+            let probes = chain_link.probes.iter();
+            probes.map(move |probe| (Some(link), probe))
+        });
         for (link, probe) in on_base.chain(on_links) {
             if let Probed::Body(body) = &probe.of {
                 let parameter = of_bodies[probe.column];
                 let parts = parts(&chain, link, body).ok_or_else(|| large(parameter))?;
                 let mut sums = vec![Exact::zero(); columns.len()];
                 for ((place, moment), over) in places.iter().zip(coefficients) {
-                    let part = moment.read(parts.at(*place));
+                    let part = moment.read(&parts[place.unwrap_or(chain.links.len())]);
                     for (pivot, factor) in over.iter().filter(|_| !part.is_zero()) {
                         sums[*pivot] = sums[*pivot].add(&part.mul(factor));
                     }
@@ -221,9 +215,7 @@ impl BaseParameters {
     /// Returns every base parameter as a combination of the links' and the drives', in words.
     pub fn names(&self) -> Vec<String> {
         let combinations = self.combinations.iter();
-        combinations
-            .map(|terms| names::combination(terms))
-            .collect()
+        combinations.map(|terms| combination(terms)).collect()
     }
 
     /// Returns every base parameter's value for a robot of exact numbers.
@@ -232,12 +224,8 @@ impl BaseParameters {
         let value = |terms: &Vec<(Parameter, Exact)>| {
             let terms = terms.iter().map(|(parameter, factor)| {
                 let amount = match *parameter {
-                    Parameter::Base(link_parameter) => {
-                        link_parameter.of_body(&arm.body(arm.first_body()))
-                    }
-                    Parameter::Link(row, link_parameter) => {
-                        link_parameter.of_body(&arm.body(base + row))
-                    }
+                    Parameter::Base(entry) => entry.of_body(&arm.body(arm.first_body())),
+                    Parameter::Link(row, entry) => entry.of_body(&arm.body(base + row)),
                     Parameter::Armature(row) => arm.links[base + row].armature.clone(),
                     Parameter::Viscous(row) => arm.links[base + row].friction.viscous.clone(),
                 };
@@ -251,4 +239,41 @@ impl BaseParameters {
 
 fn transposed(rotation: &[[Exact; 3]; 3]) -> [[Exact; 3]; 3] {
     core::array::from_fn(|i| core::array::from_fn(|j| rotation[j][i].clone()))
+}
+
+fn plain(constant: &Exact) -> String {
+    let mut text = String::new();
+    for c in constant.to_string().chars() {
+        if c == '*' {
+            let rest = text.strip_suffix('1');
+            let ends = |c: char| c.is_ascii_digit() || c == '.' || c == '/';
+            if let Some(rest) = rest.filter(|rest| !rest.ends_with(ends)) {
+                text.truncate(rest.len());
+                continue;
+            }
+        }
+        text.push(c);
+    }
+    text.replace("+-", " - ").replace('+', " + ")
+}
+
+/// For example `Izz2 + 0.25 m3 - mx4`.
+fn combination(terms: &[(Parameter, Exact)]) -> String {
+    let mut text = String::new();
+    for (parameter, factor) in terms {
+        let is_negative = factor.as_rational().is_some_and(Signed::is_negative);
+        let sign = match (text.is_empty(), is_negative) {
+            (true, true) => "-",
+            (true, false) => "",
+            (false, true) => " - ",
+            (false, false) => " + ",
+        };
+        let factor = match factor.as_rational() {
+            Some(value) if value.abs().is_one() => String::new(),
+            Some(value) => format!("{} ", decimal(&value.abs())),
+            None => format!("({}) ", plain(factor)),
+        };
+        text += &format!("{sign}{factor}{parameter}");
+    }
+    text
 }

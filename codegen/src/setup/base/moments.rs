@@ -68,47 +68,27 @@ pub(super) fn kept(kind: JointKind) -> &'static [Moment] {
             Moment::First(0),
             Moment::First(1),
         ],
-        JointKind::Prismatic => &[
-            Moment::Mass,
-            Moment::First(0),
-            Moment::First(1),
-            Moment::First(2),
-        ],
+        // Its mass and first moments.
+        JointKind::Prismatic => &Moment::ALL[..4],
     }
 }
 
-/// The part of a body that each link, and a base that floats, keeps.
-pub(super) struct BodyParts {
-    base: MomentBody<Exact>,
-    links: Vec<MomentBody<Exact>>,
-}
-
-impl BodyParts {
-    /// Returns that of a link, or of the base.
-    pub(super) fn at(&self, link: Option<usize>) -> &MomentBody<Exact> {
-        link.map_or(&self.base, |link| &self.links[link])
-    }
-}
-
+/// Returns the part of a body that each link keeps; behind the last, the part of a base that floats.
 pub(super) fn parts(
     chain: &Chain<Exact>,
     link: Option<usize>,
     body: &MomentBody<Exact>,
-) -> Option<BodyParts> {
+) -> Option<Vec<MomentBody<Exact>>> {
     let mut parts = vec![MomentBody::zero(); chain.links.len()];
     let mut arriving = body.clone();
     for i in link.into_iter().flat_map(|link| chain.way(link)) {
         if terms(&arriving) > MAX_TERMS {
             return None;
         }
-        let (stays, moves) = chain.links[i].split_base(&arriving);
-        parts[i] = stays;
-        arriving = moves;
+        (parts[i], arriving) = chain.links[i].split_base(&arriving);
     }
-    Some(BodyParts {
-        base: arriving,
-        links: parts,
-    })
+    parts.push(arriving);
+    Some(parts)
 }
 
 fn terms(body: &MomentBody<Exact>) -> usize {

@@ -36,24 +36,22 @@ pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
 pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     let mut empty = skeleton.clone();
     empty.base = empty.base.map(|_| MomentBody::zero());
-    empty
-        .links
-        .iter_mut()
-        .for_each(|segment| segment.link.body = MomentBody::zero());
+    for segment in &mut empty.links {
+        segment.link.body = MomentBody::zero();
+    }
     empty
 }
 
 fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
     let chain_link = &skeleton.links[link].link;
     let links = skeleton.links.iter().map(|segment| &segment.link);
-    let next = links.filter(|next| next.parent == Some(link));
-    let next = next.map(|next| next.offset.clone());
+    let behind = links.filter(|next| next.parent == Some(link));
+    let next = behind.map(|next| next.offset.clone());
     let mut candidates = vec![zero_vector()];
     match chain_link.kind {
-        JointKind::Revolute => candidates.extend(next.map(|[_, _, z]| {
-            let [x, y] = [Exact::zero(), Exact::zero()];
-            [x, y, z]
-        })),
+        JointKind::Revolute => {
+            candidates.extend(next.map(|[_, _, z]| [Exact::zero(), Exact::zero(), z]));
+        }
         JointKind::Prismatic => {
             candidates.push(opposite(&chain_link.offset));
             candidates.extend(next);
@@ -78,17 +76,14 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     let counter = Counter::new();
     let chain = chain.map(Exact::counted);
     let value = || counter.value();
-    let position: Vec<JointPosition<Count<'_>>> = chain
-        .links
-        .iter()
-        .map(|link| match link.kind {
-            JointKind::Revolute => JointPosition::Revolute(SinCosPair {
-                sin: value(),
-                cos: value(),
-            }),
-            JointKind::Prismatic => JointPosition::Prismatic(value()),
-        })
-        .collect();
+    let of_kind = |kind: JointKind| match kind {
+        JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+            sin: value(),
+            cos: value(),
+        }),
+        JointKind::Prismatic => JointPosition::Prismatic(value()),
+    };
+    let position: Vec<_> = chain.links.iter().map(|link| of_kind(link.kind)).collect();
     let rates: Vec<Count<'_>> = (0..chain.coordinates()).map(|_| value()).collect();
     let (chain, at) = chain.posed(&position);
     chain.regressor(&at, &rates, &rates, CompositeOrder::Outward);

@@ -53,12 +53,8 @@ impl ReducedModel<'_> {
             let term = &self.terms.all[term];
             add(&mut links[term.link], &term.unit, &short(factor));
         }
-        let rows: Vec<usize> = self
-            .terms
-            .outputs
-            .iter()
-            .map(|&output| self.exact.rows[output])
-            .collect();
+        let outputs = self.terms.outputs.iter();
+        let rows: Vec<usize> = outputs.map(|&output| self.exact.rows[output]).collect();
         self.setup.fitted(links, &rows)
     }
 }

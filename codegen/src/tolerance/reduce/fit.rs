@@ -35,12 +35,8 @@ pub(super) struct Solution {
 impl<'t> TermFit<'t> {
     pub(super) fn new(terms: &'t Terms) -> TermFit<'t> {
         let (block, count) = (terms.samples.block(), terms.all.len());
-        let columns: Vec<&[f64]> = terms
-            .all
-            .iter()
-            .map(|term| &term.column[..])
-            .chain([&terms.whole[..]])
-            .collect();
+        let mut columns: Vec<&[f64]> = terms.all.iter().map(|term| &term.column[..]).collect();
+        columns.push(&terms.whole);
         let blocks = terms.whole.len() / block;
         let products = |index: usize| {
             let part = |column: usize| &columns[column][index * block..][..block];
@@ -122,11 +118,7 @@ impl<'t> TermFit<'t> {
             now = self.least_squares(terms, &rows);
             let error = largest(&self.errors(terms, &now));
             if error < best.error {
-                best = Solution {
-                    factors: now.clone(),
-                    error,
-                    ..best
-                };
+                (best.factors, best.error) = (now.clone(), error);
             }
         }
         best
@@ -152,13 +144,11 @@ impl<'t> TermFit<'t> {
     }
 
     fn least_squares(&self, terms: &[usize], rows: &[f64]) -> Vec<f64> {
-        let scaled: Vec<Vec<f64>> = terms
-            .iter()
-            .map(|&term| {
-                let pairs = self.terms.all[term].column.iter().zip(rows);
-                pairs.map(|(x, weight)| x * weight).collect()
-            })
-            .collect();
+        let scale = |&term: &usize| {
+            let pairs = self.terms.all[term].column.iter().zip(rows);
+            pairs.map(|(x, weight)| x * weight).collect()
+        };
+        let scaled: Vec<Vec<f64>> = terms.iter().map(scale).collect();
         let factor = Factor::new(terms.len(), |a, b| {
             dot(&scaled[b], &self.terms.all[terms[a]].column)
         });
@@ -184,16 +174,12 @@ impl<'t> TermFit<'t> {
         let factor = Factor::new(n, |a, b| gram[at(a, b)]);
         let inverse = factor.inverse();
         let factors = factor.solve(right);
-        let saliency = factors
-            .iter()
-            .enumerate()
-            .map(|(k, x)| x * x / inverse[k][k])
-            .collect();
+        let saliency = |(k, x): (usize, &f64)| x * x / inverse[k][k];
         Solution {
             terms: terms.to_vec(),
-            factors,
+            saliency: factors.iter().enumerate().map(saliency).collect(),
             error: f64::INFINITY,
-            saliency,
+            factors,
             inverse,
         }
     }

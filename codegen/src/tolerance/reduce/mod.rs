@@ -56,17 +56,15 @@ pub(super) fn programs(target: Target<'_>) -> Vec<Program> {
     let of = |most: &f64| models.iter().rposition(|model| model.error <= *most);
     let mut places: Vec<usize> = USES.iter().filter_map(of).collect();
     places.dedup();
-    let mut programs: Vec<Program> = parallel::each(&places, |&place| match is_over() {
+    let built = parallel::each(&places, |&place| match is_over() {
         true => None,
         false => {
             // As closely as can be: that leaves more to prune with.
             let from = fit.solve(&models[place].terms, 0.0);
             builder.program(&fit.refine(from, 0.0))
         }
-    })
-    .into_iter()
-    .flatten()
-    .collect();
+    });
+    let mut programs: Vec<Program> = built.into_iter().flatten().collect();
     programs.dedup();
     programs
 }

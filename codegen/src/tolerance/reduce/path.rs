@@ -19,14 +19,9 @@ pub(super) fn eliminate(
     fit: &TermFit<'_>,
     is_over: &dyn Fn() -> bool,
 ) -> Vec<Solution> {
-    let singles = fit
-        .terms
-        .all
-        .iter()
-        .enumerate()
-        .filter(|(_, term)| term.stands_for.is_none());
-    let mut now: Vec<usize> = singles.map(|(index, _)| index).collect();
-    now.retain(|&term| fit.is_something(term));
+    let terms = &fit.terms.all;
+    let is_single = |&term: &usize| terms[term].stands_for.is_none() && fit.is_something(term);
+    let now: Vec<usize> = (0..terms.len()).filter(is_single).collect();
     let mut solution = fit.solve(&now, ENOUGH);
     let mut models = Vec::new();
     while !is_over() {
@@ -76,7 +71,7 @@ fn candidates(fit: &TermFit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> 
         let gap = solution.factors[a] + sign * solution.factors[b];
         let inverse = |i: usize, j: usize| solution.inverse[i][j];
         let stiff = inverse(a, a) + inverse(b, b) + 2.0 * sign * inverse(a, b);
-        let mut other: Vec<usize> = now.to_vec();
+        let mut other = now.to_vec();
         other[a] = tied;
         other.remove(b);
         candidates.push((gap * gap / stiff, other));

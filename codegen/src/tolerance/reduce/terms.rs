@@ -37,12 +37,7 @@ pub(super) struct Terms {
 impl Terms {
     /// `None` unless the results are linear in the links' parameters, and one a row.
     pub(super) fn new(target: Target<'_>, samples: Samples) -> Option<Terms> {
-        let Target {
-            setup,
-            exact,
-            allowances,
-            ..
-        } = target;
+        let (setup, exact, allowances) = (target.setup, target.exact, target.allowances);
         let function = exact.function;
         let mut quantities = function.quantities().iter();
         let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
@@ -78,13 +73,11 @@ impl Terms {
             let fitted = setup.fitted(links, &exact.rows);
             let graph = traced(&fitted, function)?;
             let values = terms.values(&fitted.task(function).program(&graph));
-            let outputs = terms.outputs.iter();
-            let column = outputs
-                .flat_map(|&output| {
-                    let values = values[output * m..][..m].iter();
-                    values.map(move |x| x / allowances[output])
-                })
-                .collect();
+            let mut column = Vec::new();
+            for &output in &terms.outputs {
+                let entries = values[output * m..][..m].iter();
+                column.extend(entries.map(|x| x / allowances[output]));
+            }
             terms.all.push(Term {
                 link,
                 unit,

@@ -119,23 +119,18 @@ fn weighed(
 fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<Part>, String> {
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
     let mut parts = vec![Part::new("gravity", gravity)];
-    let base = Digits.placement(file.base.as_ref())?;
-    if let Some(floating_base) = &file.floating {
-        let body = Digits.body(
-            Some(&floating_base.mass),
-            floating_base.com.as_ref(),
-            floating_base.inertia.as_ref(),
-        )?;
-        parts.extend(weighed("the base", body, &base));
+    let mut frame = Digits.placement(file.base.as_ref())?;
+    if let Some(root) = &file.floating {
+        let body = Digits.body(&root.mass, root.com.as_ref(), root.inertia.as_ref())?;
+        parts.extend(weighed("the base", body, &frame));
     }
-    let (mut frame, mut links) = (base.clone(), Vec::new());
+    // The frames of the base and of each link.
+    let mut links = vec![frame.clone()];
+    let place = |row: Option<usize>| row.map_or(0, |row| row + 1);
     for (index, row) in file.joint.iter().enumerate() {
         let name = |what: &str| format!("{what} of joint {}", index + 1);
         let [before, behind] = Digits.ways(row, file.convention.as_deref())?;
-        let carrier = file
-            .carrier(index)?
-            .map_or(&base, |carrier| &links[carrier]);
-        let at = carrier.then(&before);
+        let at = links[place(file.carrier(index)?)].then(&before);
         frame = at.then(&behind);
         let along = at.rotate(unit(Digits.axis(row)?));
         if row.turns() {
@@ -154,7 +149,7 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
         for coefficient in Digits.list(drive.map(Option::as_ref))? {
             parts.push(Part::new(name("drive"), [coefficient]));
         }
-        let body = Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
+        let body = Digits.body(&row.mass, row.com.as_ref(), row.inertia.as_ref())?;
         parts.extend(weighed(&format!("joint {}", index + 1), body, &frame));
         let shown = frame.then(&Digits.placement(row.frame.as_ref())?);
         parts.push(Part::new(name("frame"), shown.rows()));
@@ -165,14 +160,8 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
     let held = frame.then(&Digits.placement(file.payload_frame.as_ref())?);
     parts.push(Part::new("payload_frame", held.rows()));
     if let Some(payload) = payload {
-        let body = Digits.body(
-            Some(&payload.mass),
-            Some(&payload.com),
-            payload.inertia.as_ref(),
-        )?;
-        let holder = file
-            .holder(payload.link.as_ref())?
-            .map_or(&base, |row| &links[row]);
+        let body = Digits.body(&payload.mass, Some(&payload.com), payload.inertia.as_ref())?;
+        let holder = &links[place(file.holder(payload.link.as_ref())?)];
         let frame = match has_frame {
             true => &holder.then(&Digits.placement(file.payload_frame.as_ref())?),
             false => holder,
@@ -180,14 +169,10 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
         parts.extend(weighed("the payload", body, frame));
     }
     for named_frame in &file.frame {
-        let link = file
-            .frame_row(named_frame)?
-            .map_or(&base, |row| &links[row]);
+        let link = &links[place(file.frame_row(named_frame)?)];
         let at = link.then(&Digits.placement(Some(&named_frame.placement()))?);
-        parts.push(Part::new(
-            format!("frame `{}`", named_frame.name),
-            at.rows(),
-        ));
+        let name = format!("frame `{}`", named_frame.name);
+        parts.push(Part::new(name, at.rows()));
     }
     Ok(parts)
 }
@@ -250,17 +235,14 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
         return Err("the rows have a payload, and the scene has none".into());
     }
     let holder = |file: &File, payload: Option<&Payload>| {
-        payload
-            .map(|payload| file.holder(payload.link.as_ref()))
-            .transpose()
+        let row = payload.map(|payload| file.holder(payload.link.as_ref()));
+        row.transpose()
     };
     if holder(file, scene_payload)? != holder(aligned, moved)? {
         return Err("the rows have the payload on another link than the scene".into());
     }
-    let (file_parts, row_parts) = (
-        parts(file, scene_payload, true)?,
-        parts(aligned, moved, false)?,
-    );
+    let file_parts = parts(file, scene_payload, true)?;
+    let row_parts = parts(aligned, moved, false)?;
     let double =
         |number: &FixedPoint| (&number.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
     for (file_part, other) in file_parts.iter().zip(&row_parts) {
@@ -270,13 +252,10 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
         let is_near = pairs.all(|(number, other)| (&number.0 - &other.0).abs() <= slack);
         if file_part.name != other.name || !is_near {
             let name = &file_part.name;
-            let [numbers, other] = [file_part, other].map(|part| {
-                let values = part.values.iter().map(double);
-                values.collect::<Vec<_>>()
-            });
-            return Err(format!(
-                "{name}: {numbers:?} in the file, {other:?} claimed"
-            ));
+            let doubles = |part: &Part| part.values.iter().map(double).collect::<Vec<_>>();
+            let (numbers, other) = (doubles(file_part), doubles(other));
+            let why = format!("{name}: {numbers:?} in the file, {other:?} claimed");
+            return Err(why);
         }
     }
     Ok(())

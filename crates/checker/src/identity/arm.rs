@@ -65,10 +65,8 @@ pub(super) struct Frame {
 pub struct Arm {
     /// The rows of the table, from the base outward.
     pub joints: Vec<Joint>,
-    /// The body of a base that floats.
     pub(super) base: Option<Body>,
     pub(super) movers: Vec<usize>,
-    /// The coordinates that are locked.
     pub(super) locked: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
@@ -99,7 +97,6 @@ pub(super) type Carried<N> = (Body<N>, Pose<N>);
 pub(super) trait Reading {
     type Number: Ring;
 
-    /// Reads a number; one that is missing is zero.
     fn entry(&self, text: Option<&String>) -> Result<Self::Number, String>;
 
     fn sines(&self, text: Option<&String>) -> Result<[Self::Number; 2], String>;
@@ -131,11 +128,11 @@ pub(super) trait Reading {
 
     fn body(
         &self,
-        mass: Option<&String>,
+        mass: &String,
         com: Option<&[String; 3]>,
         inertia: Option<&[String; 6]>,
     ) -> Result<Carried<Self::Number>, String> {
-        let mass = self.entry(mass)?;
+        let mass = self.entry(Some(mass))?;
         let [x, y, z] = [0i64; 3].map(Self::Number::from);
         let [xx, yy, zz, xy, yz, xz] = self.list(entries(inertia))?;
         let body = Body::new([mass, x, y, z, xx, yy, zz, xy, yz, xz]);
@@ -194,8 +191,7 @@ impl Point {
         if is_bare && has_mass {
             return Err("the base: expected `com` and `inertia` beside a mass".into());
         }
-        let (body, centre) =
-            self.body(Some(&base.mass), base.com.as_ref(), base.inertia.as_ref())?;
+        let (body, centre) = self.body(&base.mass, base.com.as_ref(), base.inertia.as_ref())?;
         Ok(body.moved(&centre))
     }
 
@@ -211,11 +207,8 @@ impl Point {
                 length = length + self.number(&(number_of(Some(*text))? * factor));
             }
         }
-        let leader = setting
-            .movers
-            .iter()
-            .position(|row| *row == follower.row)
-            .ok_or("a joint follows one that does not move")?;
+        let place = setting.movers.iter().position(|row| *row == follower.row);
+        let leader = place.ok_or("a joint follows one that does not move")?;
         let line = (whole(&follower.times), pair, length);
         Ok(((leader, self.number(&follower.times)), line))
     }
@@ -227,10 +220,7 @@ pub(super) fn entries<const K: usize>(list: Option<&[String; K]>) -> [Option<&St
 
 impl Row {
     fn check(&self, convention: Option<&str>) -> Result<(), &'static str> {
-        let is_zero = |text: &Option<String>| {
-            let value = number_of(text.as_ref());
-            value.is_ok_and(|value| value.is_zero())
-        };
+        let is_zero = |text: &Option<String>| number_of(text.as_ref()).is_ok_and(|x| x.is_zero());
         let turns = self.turns();
         let variable = if turns { &self.theta } else { &self.d };
         let turned = [&self.alpha, &self.beta, &self.theta].map(is_zero);
@@ -287,8 +277,7 @@ impl Arm {
                 return Err(in_joint("`axis` is not a unit vector in the digits given"));
             }
             let turns = row.turns();
-            let (body, centre) =
-                point.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
+            let (body, centre) = point.body(&row.mass, row.com.as_ref(), row.inertia.as_ref())?;
             let centred_body = (body, frame.then(&centre));
             let drive = [&row.viscous, &row.coulomb, &row.armature];
             let [viscous, coulomb, armature] = point.list(drive.map(Option::as_ref))?;
@@ -330,18 +319,13 @@ impl Arm {
             let pose = link.then(&placed);
             frames.push(Frame { name, row, pose });
         }
-        let locked = (0..setting.joints())
-            .filter(|&joint| setting.is_locked(joint))
-            .map(|joint| setting.base() + joint);
-        let body = file
-            .floating
-            .as_ref()
-            .filter(|_| setting.floats)
-            .map(|base| point.floating(file, base));
+        let is_held = |coordinate: &usize| setting.is_held(*coordinate);
+        let floating = file.floating.as_ref().filter(|_| setting.floats);
+        let body = floating.map(|base| point.floating(file, base));
         let mut arm = Arm {
             base: body.transpose()?,
             movers: setting.movers.clone(),
-            locked: locked.collect(),
+            locked: (0..setting.sizes().coordinates).filter(is_held).collect(),
             gravity: point.list(entries(Some(gravity)))?,
             frames,
             joints,
@@ -352,14 +336,14 @@ impl Arm {
             None => (scene.payload.as_ref()).map(|payload| (payload, file.payload_frame.as_ref())),
         };
         if let Some((payload, frame)) = carried {
-            let carried = point.body(
-                Some(&payload.mass),
-                Some(&payload.com),
-                payload.inertia.as_ref(),
-            )?;
+            let inertia = payload.inertia.as_ref();
+            let (body, centre) = point.body(&payload.mass, Some(&payload.com), inertia)?;
             match file.holder(payload.link.as_ref())? {
-                Some(row) => arm.carry(row, carried, &point.placement(frame)?),
-                None => arm.carry_on_base(carried)?,
+                Some(row) => arm.carry(row, (body, centre), &point.placement(frame)?),
+                None => {
+                    let base = arm.base.ok_or("a payload on a base that does not move")?;
+                    arm.base = Some(base.plus(&body.moved(&centre)));
+                }
             }
         }
         Ok(arm)
@@ -377,14 +361,13 @@ impl Arm {
         arm
     }
 
-    /// Returns how many coordinates are those of a base that floats: six, or none.
     pub(super) fn base_coordinates(&self) -> usize {
         if self.base.is_some() { 6 } else { 0 }
     }
 
     /// Lists a row and those that carry its link, to the base.
-    pub(super) fn way(&self, row: usize) -> impl Iterator<Item = usize> {
-        successors(Some(row), |&row| self.joints[row].parent)
+    pub(super) fn way(&self, row: Option<usize>) -> impl Iterator<Item = usize> {
+        successors(row, |&row| self.joints[row].parent)
     }
 
     /// Adds a body to a link, in a frame of that; the link's own is then both as one.
@@ -400,20 +383,11 @@ impl Arm {
         }
     }
 
-    fn carry_on_base(&mut self, (body, centre): (Body, Pose)) -> Result<(), String> {
-        let base = self.base.as_mut();
-        let base = base.ok_or("a payload on a base that does not move")?;
-        *base = base.plus(&body.moved(&centre));
-        Ok(())
-    }
-
     /// Returns the parameters that base parameters add up: ten a link, about the origin and in the axes
     /// of its own frame, then armature and viscous friction of each row.
     pub(super) fn parameters(&self) -> Vec<Number> {
-        let links = self
-            .joints
-            .iter()
-            .map(|joint| joint.body.moved(&joint.shown.inverse()));
+        let in_frame = |joint: &Joint| joint.body.moved(&joint.shown.inverse());
+        let links = self.joints.iter().map(in_frame);
         let bodies = self.base.iter().copied().chain(links).flat_map(|body| {
             let [x, y, z] = body.first;
             let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.tensor;
@@ -434,10 +408,9 @@ impl Arm {
     }
 
     pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
-        let leaders = self.joints.iter().map(|joint| joint.leader);
         let base = self.base_coordinates();
-        let spread = leaders.map(|(leader, factor)| rates[base + leader] * factor);
-        spread.collect()
+        let rate = |joint: &Joint| rates[base + joint.leader.0] * joint.leader.1;
+        self.joints.iter().map(rate).collect()
     }
 
     pub(super) fn gathered(&self, loads: impl IntoIterator<Item = Number>) -> Vec<Number> {

@@ -64,11 +64,7 @@ impl<'s> Points<'s> {
         }
     }
 
-    pub(crate) fn three(&mut self) -> Option<&[Point; 3]> {
-        self.first(3).first_chunk()
-    }
-
-    fn first(&mut self, count: usize) -> &[Point] {
+    pub(crate) fn first(&mut self, count: usize) -> &[Point] {
         while self.points.len() < count {
             self.points.push(Point::draw(&mut self.draws));
         }
@@ -127,10 +123,8 @@ fn at_point(
         state.arguments[place("load")] = computed.ok_or("nothing computes its `load`")?;
         arm = arm.with_load(setting, point, &state)?;
     }
-    let mut actual = statement
-        .program
-        .residues(point, &state)
-        .ok_or("the program reads what is not there")?;
+    let residues = statement.program.residues(point, &state);
+    let mut actual = residues.ok_or("the program reads what is not there")?;
     let mut expected = Vec::new();
     for field in &function.fields {
         let values = result(&arm, &state, field).ok_or("no such result")?;
@@ -156,17 +150,14 @@ fn at_point(
     }
     if !base.values.is_empty() {
         let parameters = arm.parameters();
-        let sums = base
-            .combinations
-            .iter()
-            .map(|combination| {
-                let mut sum = Number::new(0, point.prime);
-                for (column, factor) in combination {
-                    sum = sum + *parameters.get(*column)? * point.constant(factor);
-                }
-                Some(sum)
-            })
-            .collect::<Option<Vec<Number>>>();
+        let value = |combination: &Combination| {
+            let mut sum = Number::new(0, point.prime);
+            for (column, factor) in combination {
+                sum = sum + *parameters.get(*column)? * point.constant(factor);
+            }
+            Some(sum)
+        };
+        let sums: Option<Vec<Number>> = base.combinations.iter().map(value).collect();
         expected.extend(sums.ok_or("the base parameters do not fit the robot")?);
         actual.extend(base.values.iter().map(|exact| point.constant(exact)));
     }
@@ -196,10 +187,9 @@ fn are_independent(base: &[Combination], point: &Point) -> bool {
             add(*column, point.constant(factor), &mut row);
         }
         for other in &known {
-            let Some((pivot, by)) = other.first_key_value() else {
-                continue;
-            };
-            if let Some(value) = row.get(pivot) {
+            if let Some((pivot, by)) = other.first_key_value()
+                && let Some(value) = row.get(pivot)
+            {
                 let factor = -(*value / *by);
                 for (column, value) in other {
                     add(*column, *value * factor, &mut row);

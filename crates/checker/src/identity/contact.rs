@@ -1,7 +1,7 @@
 //! The momentum about the centre of mass, a base that nothing holds, points that the ground holds, and
 //! the space of the hand.
 
-use super::matrix::{Matrix, plus, solve, times, transposed};
+use super::matrix::{Matrix, minus, plus, solve, times, transposed};
 use super::number::Number;
 use super::outputs::At;
 use super::screw::{Screw, Vector, cross, sum};
@@ -10,10 +10,8 @@ use super::table::View;
 impl At<'_> {
     pub(super) fn centre(&self) -> Vector {
         let base = self.base.unwrap_or_default();
-        let whole = self
-            .bodies
-            .iter()
-            .fold(base, |total, body| total.plus(body));
+        let bodies = self.bodies.iter();
+        let whole = bodies.fold(base, |total, body| total.plus(body));
         whole.first.map(|moment| moment / whole.mass)
     }
 
@@ -28,15 +26,10 @@ impl At<'_> {
         let first = self.first();
         let mut qdd = self.given("qdd").to_vec();
         qdd[..first].fill(0.into());
-        let taken = self.torques(&qdd)[..first].to_vec();
+        let lacking = minus(&self.zeros(), &self.torques(&qdd))[..first].to_vec();
         let rows = self.inertia().into_iter().take(first);
         let block = rows.map(|row| row[..first].to_vec()).collect();
-        let base: Vec<Number> = solve(block, vec![taken])
-            .concat()
-            .into_iter()
-            .map(|acceleration| -acceleration)
-            .collect();
-        qdd[..first].copy_from_slice(&base);
+        qdd[..first].copy_from_slice(&solve(block, vec![lacking]).concat());
         qdd
     }
 
@@ -71,11 +64,8 @@ impl At<'_> {
         let [driven, mobility] = self.mobility_of(&j);
         let free = self.accelerations(self.given("tau"));
         let escape = plus(&times(&j, &free), &self.contact_bias());
-        let forces: Vec<Number> = solve(self.damped(mobility), vec![escape])
-            .concat()
-            .into_iter()
-            .map(|force| -force)
-            .collect();
+        let opposite = escape.into_iter().map(|rate| -rate).collect();
+        let forces = solve(self.damped(mobility), vec![opposite]).concat();
         [plus(&free, &times(&transposed(&driven), &forces)), forces]
     }
 

@@ -68,6 +68,17 @@ fn circle(t: Number) -> [Number; 2] {
     [(t + t) / (one + t * t), (one - t * t) / (one + t * t)]
 }
 
+/// Sums x − x³/3 + x⁵/5 − …, each power by the one before, until it is zero.
+fn arctan(mut power: BigInt, next: impl Fn(BigInt) -> BigInt) -> BigInt {
+    let (mut sum, mut k) = (BigInt::zero(), 1u32);
+    while !power.is_zero() {
+        let part = &power / k;
+        sum += if k % 4 == 1 { part } else { -part };
+        (power, k) = (next(power), k + 2);
+    }
+    sum
+}
+
 /// Returns 2 atan x in units of 2 to the power of −`bits`, to a few of them.
 fn twice_atan(x: &Rational, bits: u32) -> BigInt {
     let is_steep = x.abs() > Rational::one();
@@ -78,13 +89,7 @@ fn twice_atan(x: &Rational, bits: u32) -> BigInt {
         let root = (&one * &one + &x * &x).sqrt();
         x = &x * &one / (&one + root);
     }
-    let (mut power, mut sum, mut k) = (x.clone(), BigInt::zero(), 1u32);
-    while !power.is_zero() {
-        let part = &power / k;
-        sum += if k % 4 == 1 { part } else { -part };
-        power = &power * &x / &one * &x / &one;
-        k += 2;
-    }
+    let sum = arctan(x.clone(), |power| power * &x / &one * &x / &one);
     let half_turn = Angle::Pi(x.signum().into());
     match is_steep {
         true => half_turn.scaled(bits) - sum * 32,
@@ -147,17 +152,8 @@ impl Angle {
     }
 
     pub(super) fn scaled(&self, bits: u32) -> BigInt {
-        let arc = |under: u32| {
-            // arctan 1/n
-            let (mut power, mut sum, mut k) =
-                ((BigInt::one() << bits) / under, BigInt::zero(), 1u32);
-            while !power.is_zero() {
-                let part = &power / k;
-                sum += if k % 4 == 1 { part } else { -part };
-                (power, k) = (power / (under * under), k + 2);
-            }
-            sum
-        };
+        let one = BigInt::one() << bits;
+        let arc = |under: u32| arctan(&one / under, |power| power / (under * under));
         match self {
             Angle::Radians(x) => fixed(x, bits),
             Angle::Pi(x) => (fixed(x, bits) * (16 * arc(5) - 4 * arc(239))) >> bits,
@@ -276,11 +272,9 @@ impl Exact {
     }
 
     pub(crate) fn factors(&self) -> usize {
-        let terms = self.0.terms.iter();
-        let factors = |(_, angles): &Term| -> u32 {
-            angles.iter().map(|(_, powers)| powers[0] + powers[1]).sum()
-        };
-        terms.map(|term| 1 + factors(term) as usize).sum()
+        let powers = self.0.terms.iter().flat_map(|term| &term.1);
+        let count: u32 = powers.map(|(_, [sin, cos])| sin + cos).sum();
+        self.0.terms.len() + count as usize
     }
 
     /// Returns a constant without angles.
@@ -336,9 +330,8 @@ impl Exact {
             let factor = fixed(factor, PLACES);
             let mut product = factor.clone();
             for (angle, powers) in powers {
-                let pair = known
-                    .entry(angle.clone())
-                    .or_insert_with(|| angle.rounded());
+                let entry = known.entry(angle.clone());
+                let pair = entry.or_insert_with(|| angle.rounded());
                 for (value, power) in pair.as_ref()?.iter().zip(powers) {
                     (0..*power).for_each(|_| product = (&product * value) >> BITS);
                 }
@@ -368,26 +361,18 @@ impl Exact {
         if is_single && f64::from(single) != literal {
             return false;
         }
+        let (down, up, single_bits) = (single.next_down(), single.next_up(), single.to_bits());
         let (below, above, bits): (f64, f64, u64) = match is_single {
-            true => (
-                single.next_down().into(),
-                single.next_up().into(),
-                single.to_bits().into(),
-            ),
+            true => (down.into(), up.into(), single_bits.into()),
             false => (literal.next_down(), literal.next_up(), literal.to_bits()),
         };
-        if ![literal, below, above]
-            .iter()
-            .all(|double| double.is_finite())
-        {
+        if ![literal, below, above].iter().all(|x| x.is_finite()) {
             return false;
         }
         let is_tie = bits.is_multiple_of(2) && is_exact;
         let low = rounded.twice_against(-1, [literal, below]);
         let high = rounded.twice_against(1, [literal, above]);
-        let fits = |found: Ordering, wanted: Ordering| {
-            found == wanted || is_tie && found == Ordering::Equal
-        };
+        let fits = |order: Ordering, wanted| order == wanted || is_tie && order == Ordering::Equal;
         fits(low, Ordering::Greater) && fits(high, Ordering::Less)
     }
 }
@@ -463,12 +448,8 @@ impl Point {
     /// twenty-fourth of a turn have all their relations, other angles are drawn.
     pub fn angle(&self, angle: &Angle) -> [Number; 2] {
         let drawn = |angle: Angle| {
-            let known = self
-                .angles
-                .borrow()
-                .get(&angle)
-                .copied()
-                .or_else(|| self.part_of_turn(&angle));
+            let drawn_before = self.angles.borrow().get(&angle).copied();
+            let known = drawn_before.or_else(|| self.part_of_turn(&angle));
             let pair = known.unwrap_or_else(|| self.pair());
             self.angles.borrow_mut().insert(angle, pair);
             pair

@@ -47,9 +47,8 @@ impl Setting<'_> {
         let is_there = |link: &usize| (first..=last).contains(link);
         let are_in_order = self.bodies.is_sorted_by(|one, next| one < next);
         if !are_in_order || !self.bodies.iter().all(is_there) {
-            return Err(format!(
-                "`bodies` are not of links {first} to {last}, in order"
-            ));
+            let why = format!("`bodies` are not of links {first} to {last}, in order");
+            return Err(why);
         }
         let is_taken = arguments.iter().any(|name| name == "bodies");
         if is_taken == self.bodies.is_empty() {
@@ -80,9 +79,6 @@ impl Setting<'_> {
 
     /// Returns the bodies that each link's may be: those of its limits, or half to twice the mass, twice
     /// as far from its frame.
-    ///
-    /// # Errors
-    /// A number of a link that is not one.
     fn body_ranges(&self) -> Result<Vec<payload::BodyRange>, String> {
         let of = |(link, numbers): (&usize, &[f64; 10])| {
             let joint = |row: usize| self.file.joint.get(row)?.limits.body.as_ref();
@@ -108,10 +104,7 @@ fn around([mass, x, y, z, xx, yy, zz, ..]: [f64; 10]) -> payload::BodyRange {
 }
 
 impl Bodies {
-    /// Reads the range; `key` is the one that it stands at.
-    ///
-    /// # Errors
-    /// It is empty, or not of numbers.
+    /// Reads the range, unless it is empty; `key` is the one that it stands at.
     pub(super) fn read(&self, key: &str) -> Result<payload::BodyRange, String> {
         let read = |[low, high]: &[String; 2]| {
             let double = |text: &String| number(text)?.to_f64();
@@ -132,21 +125,15 @@ impl File {
     /// One that is not a number.
     pub fn body_of(&self, link: usize) -> Result<Vec<Exact>, String> {
         let body = match link.checked_sub(1) {
-            Some(row) => {
-                (self.joint.get(row)).map(|joint| (&joint.mass, &joint.com, &joint.inertia))
-            }
+            Some(index) => (self.joint.get(index)).map(|row| (&row.mass, &row.com, &row.inertia)),
             None => (self.floating.as_ref()).map(|base| (&base.mass, &base.com, &base.inertia)),
         };
         let (mass, com, inertia) = body.ok_or("the body of a link that is not there")?;
-        let com = com.iter().flatten();
-        let inertia = inertia.iter().flatten();
         let mut numbers = vec![Exact::from(Rational::zero()); 10];
-        let texts = [(0, mass)]
-            .into_iter()
-            .filter(|(_, text)| !text.is_empty())
-            .chain((1..).zip(com))
-            .chain((4..).zip(inertia));
-        for (place, text) in texts {
+        let mass = [(0, mass)].into_iter().filter(|(_, text)| !text.is_empty());
+        let centre = (1..).zip(com.iter().flatten());
+        let inertia = (4..).zip(inertia.iter().flatten());
+        for (place, text) in mass.chain(centre).chain(inertia) {
             let number = number_of(Some(text)).map_err(|why| format!("link {link}: {why}"))?;
             let is_nothing = number.to_f64().is_some_and(|x| x.abs() < NOTHING);
             numbers[place] = Exact::from(if is_nothing { Rational::zero() } else { number });
@@ -180,7 +167,6 @@ fn body(numbers: &[Number]) -> Result<(Body, Pose), String> {
 }
 
 impl Arm {
-    /// Returns the arm with what `load` is of.
     pub(super) fn with_load(
         mut self,
         setting: &Setting,
@@ -195,11 +181,8 @@ impl Arm {
             match ARGUMENTS[place].0 {
                 "bodies" => {
                     let stays = |place| setting.zeros.get(place) == Some(&true);
-                    let numbers: Vec<Number> = entries
-                        .iter()
-                        .enumerate()
-                        .map(|(k, x)| if stays(k) { 0.into() } else { *x })
-                        .collect();
+                    let entry = |(k, x): (usize, &Number)| if stays(k) { 0.into() } else { *x };
+                    let numbers: Vec<Number> = entries.iter().enumerate().map(entry).collect();
                     for (link, numbers) in setting.bodies.iter().zip(numbers.chunks(10)) {
                         self.take_body(*link, body(numbers)?)?;
                     }

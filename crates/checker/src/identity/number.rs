@@ -63,12 +63,7 @@ impl Prime {
         let high = high + other_high + u128::from(carry);
         let [more, _] = wide(low.wrapping_mul(self.inverse), self.value);
         // The low halves add up to 2¹²⁸, or both are nothing.
-        let sum = high + more + u128::from(low != 0);
-        if sum >= self.value {
-            sum - self.value
-        } else {
-            sum
-        }
+        self.sum(high + more, u128::from(low != 0))
     }
 
     /// Returns a number as residues stand.
@@ -140,9 +135,8 @@ impl Number {
 
     /// Returns the square root of a residue that has one, modulo a prime of the form 4 k − 1.
     pub fn root(self) -> Number {
-        let power = self
-            .prime
-            .power(self.parts[0], self.prime.value.div_ceil(4));
+        let prime = self.prime;
+        let power = prime.power(self.parts[0], prime.value.div_ceil(4));
         let parts = [power, 0, 0, 0];
         Number { parts, ..self }
     }

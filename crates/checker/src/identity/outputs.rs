@@ -16,7 +16,6 @@ pub(super) struct At<'a> {
     state: &'a State,
     pub(super) view: &'a View,
     axes: Vec<Screw>,
-    /// That of a base that floats.
     pub(super) base: Option<Body>,
     pub(super) bodies: Vec<Body>,
     /// The motion of the base, and then of each link.
@@ -30,16 +29,13 @@ impl<'a> At<'a> {
         for joint in &arm.joints {
             poses.push(poses[carrier(joint)].then(&joint.motion(state)));
         }
-        let axes = arm
-            .joints
-            .iter()
-            .map(|joint| (joint, &poses[carrier(joint)]));
+        let axis = |joint: &Joint| poses[carrier(joint)].screw(joint.axis);
         let bodies = arm.joints.iter().zip(&poses[1..]);
         At {
             arm,
             state,
             view,
-            axes: axes.map(|(joint, pose)| pose.screw(joint.axis)).collect(),
+            axes: arm.joints.iter().map(axis).collect(),
             base: arm.base,
             bodies: bodies.map(|(joint, pose)| joint.body.moved(pose)).collect(),
             poses,
@@ -104,10 +100,8 @@ impl<'a> At<'a> {
             let turned = v.across_momentum(body.momentum(v));
             body.momentum(a).plus(turned)
         };
-        let mut on_base = Screw::default();
-        if let Some(body) = &self.base {
-            on_base = exerted(body, base);
-        }
+        let root = self.base;
+        let mut on_base = root.map_or_else(Screw::default, |body| exerted(&body, base));
         let mut motions: Vec<(Screw, Screw)> = Vec::new();
         let mut wrenches: Vec<Screw> = Vec::new();
         for (k, joint) in self.arm.joints.iter().enumerate() {
@@ -131,11 +125,8 @@ impl<'a> At<'a> {
     /// Returns D q̈ + h, and c if there is gravity, without friction.
     fn loads(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Number> {
         let (on_base, wrenches) = self.wrenches(qd, qdd, gravity);
-        let torques = self
-            .axes
-            .iter()
-            .zip(wrenches)
-            .map(|(axis, wrench)| axis.power(wrench));
+        let torque = |(axis, wrench): (&Screw, Screw)| axis.power(wrench);
+        let torques = self.axes.iter().zip(wrenches).map(torque);
         let mut loads = self.arm.gathered(torques);
         let units = base_units().into_iter().take(self.first());
         for (load, unit) in loads.iter_mut().zip(units) {
@@ -175,9 +166,8 @@ impl<'a> At<'a> {
         let units = || base_units().into_iter().take(first).enumerate();
         for (k, joint) in self.arm.joints.iter().enumerate().rev() {
             let body = behind[k];
-            let carrier = joint
-                .parent
-                .map_or(&mut whole, |carrier| &mut behind[carrier]);
+            let parent = joint.parent;
+            let carrier = parent.map_or(&mut whole, |carrier| &mut behind[carrier]);
             *carrier = carrier.plus(&body);
             let momentum = body.momentum(self.axes[k]);
             let (leader, factor) = joint.leader;
@@ -188,7 +178,7 @@ impl<'a> At<'a> {
                 d[row][column] = d[row][column] + entry;
                 d[column][row] = d[column][row] + entry;
             }
-            for i in self.arm.way(k) {
+            for i in self.arm.way(Some(k)) {
                 let (leader, other) = self.arm.joints[i].leader;
                 let column = first + leader;
                 let entry = self.axes[i].power(momentum) * factor * other;
@@ -241,15 +231,11 @@ impl<'a> At<'a> {
             let Screw(turn, shift) = screw(v).across(screw(w));
             bracket[..3].copy_from_slice(&shift);
             bracket[3..6].copy_from_slice(&turn);
-            twice = plus(
-                &twice,
-                &self.loads(&self.zeros(), &bracket, Vector::default()),
-            );
+            let momentum = self.loads(&self.zeros(), &bracket, Vector::default());
+            twice = plus(&twice, &momentum);
         }
-        twice
-            .into_iter()
-            .map(|entry| entry * self.arm.half)
-            .collect()
+        let half = |entry: Number| entry * self.arm.half;
+        twice.into_iter().map(half).collect()
     }
 
     fn columns_of_coriolis(&self) -> Matrix {
@@ -295,10 +281,7 @@ impl<'a> At<'a> {
         let Some((last, hand)) = self.hand() else {
             return Vec::new();
         };
-        let way: Vec<usize> = last
-            .into_iter()
-            .flat_map(|last| self.arm.way(last))
-            .collect();
+        let way: Vec<usize> = self.arm.way(last).collect();
         let column = |(row, axis): (usize, &Screw)| {
             let is_on_way = way.contains(&row);
             let motion = if is_on_way { *axis } else { Screw::default() };
@@ -307,25 +290,21 @@ impl<'a> At<'a> {
         let columns = self.axes.iter().enumerate().map(column).collect();
         let base = base_units().map(|unit| self.seen(unit, &hand));
         let base = transposed(&base[..self.first()].to_vec());
-        let rows = transposed(&columns)
-            .into_iter()
-            .map(|row| self.arm.gathered(row));
-        let with_base = |(k, mut row): (usize, Vec<Number>)| {
+        let with_base = |(k, row): (usize, Vec<Number>)| {
+            let mut row = self.arm.gathered(row);
             if let Some(entries) = base.get(k) {
                 row[..entries.len()].copy_from_slice(entries);
             }
             row
         };
-        rows.enumerate().map(with_base).collect()
+        let rows = transposed(&columns).into_iter().enumerate();
+        rows.map(with_base).collect()
     }
 
     fn slopes(&self, by: usize, of: impl Fn(&At) -> Vec<Number>) -> Matrix {
+        let before = if by == 0 { self.first() } else { 0 };
         let column = |coordinate: usize| {
-            let index = match by {
-                0 => coordinate.checked_sub(self.first()),
-                _ => Some(coordinate),
-            };
-            let numbers = match index {
+            let numbers = match coordinate.checked_sub(before) {
                 Some(index) => {
                     let moved = self.state.moving(by, index, 1);
                     of(&self.moved(&moved, &[by]))
@@ -352,8 +331,7 @@ impl<'a> At<'a> {
         };
         // Components in the base's axes, which turn; in the hand's they are what they are.
         let base = screw(qd);
-        let links = last.into_iter().flat_map(|last| self.arm.way(last));
-        let rates = self.arm.spread(qd);
+        let (links, rates) = (self.arm.way(last), self.arm.spread(qd));
         let motion = links.fold(base, |motion, k| motion.plus(self.axes[k].times(rates[k])));
         let turned = match self.view.axes.as_str() {
             "local" => return rate,
@@ -428,7 +406,7 @@ impl<'a> At<'a> {
         match name {
             "tau" => self.torques(self.given("qdd")),
             "c" => self.gravity(),
-            "d" => self.inertia().concat(),
+            "d" | "d_limbs" => self.inertia().concat(),
             "h" => self.coriolis(qd),
             "d_rot" | "d_tran" | "h_rot" | "h_tran" => {
                 let arm = self.with_tensors_or_masses(name.ends_with("rot"));
@@ -484,27 +462,16 @@ impl<'a> At<'a> {
                 torques
             }
             "base_acceleration" => self.in_flight()[..self.first()].to_vec(),
-            "d_base" => {
-                let base = self.first();
-                let rows = self.inertia().into_iter().take(base);
-                rows.flat_map(|row| row.into_iter().take(base)).collect()
+            "d_base" | "d_coupling" => {
+                let (base, d) = (self.first(), self.inertia());
+                let columns = if name == "d_base" { 0..base } else { base..n };
+                let part = |row: &Vec<Number>| row[columns.clone()].to_vec();
+                d[..base].iter().flat_map(part).collect()
             }
-            "d_coupling" => {
-                let base = self.first();
-                let rows = self.inertia().into_iter().take(base);
-                rows.flat_map(|row| row.into_iter().skip(base)).collect()
-            }
-            "d_limbs" => self.inertia().concat(),
             "contact_jacobians" => self.contact_jacobians().concat(),
             "contact_bias" => self.contact_bias(),
-            "qdd_held" => {
-                let [accelerations, _] = self.held();
-                accelerations
-            }
-            "forces" => {
-                let [_, forces] = self.held();
-                forces
-            }
+            "qdd_held" => self.held()[0].clone(),
+            "forces" => self.held()[1].clone(),
             "passivity" => self.passivity(),
             "qdd" => self.accelerations(self.given("tau")),
             "d_inv" => self.driven(units(n)).concat(),
@@ -585,11 +552,8 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     let mut words = field.quantity.split('_');
     let first = words.next()?;
     let of = first.trim_start_matches('d').trim_start_matches('2');
-    let by = words
-        .map(|word| argument(word.strip_prefix('d')?))
-        .collect::<Option<Vec<usize>>>()
-        .unwrap_or_default();
-    Some(match *by.as_slice() {
+    let by: Option<Vec<usize>> = words.map(|key| argument(key.strip_prefix('d')?)).collect();
+    Some(match *by.unwrap_or_default().as_slice() {
         [by] => arm_at_state.slopes(by, |at| at.value(of)).concat(),
         [one, other] => {
             let bend = |at: usize, known: &[Number]| {

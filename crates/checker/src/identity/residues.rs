@@ -28,11 +28,8 @@ fn apply(operation: char, a: Number, b: Number) -> Number {
 impl Program<Exact> {
     /// Returns its results at a point.
     pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
-        self.run(
-            |operand| leaf(operand, point, state),
-            apply,
-            |number: Number| -number,
-        )
+        let value = |operand: &Operand<Exact>| leaf(operand, point, state);
+        self.run(value, apply, |number: Number| -number)
     }
 
     /// Returns its results at a point with another value in the place of a step's.
@@ -51,11 +48,8 @@ impl Program<Exact> {
                 false => apply(operation, a, b),
             }
         };
-        self.run(
-            |operand| leaf(operand, point, state),
-            apply,
-            |number: Number| -number,
-        )
+        let value = |operand: &Operand<Exact>| leaf(operand, point, state);
+        self.run(value, apply, |number: Number| -number)
     }
 
     pub(crate) fn step_residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {

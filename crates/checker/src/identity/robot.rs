@@ -204,9 +204,6 @@ pub(super) struct Limits {
 
 impl File {
     /// Returns the row whose link carries that of a row; none of one that the base carries.
-    ///
-    /// # Errors
-    /// A parent that does not come before, or of a joint that is not placed.
     pub(super) fn carrier(&self, row: usize) -> Result<Option<usize>, String> {
         let joint = &self.joint[row];
         let why = match joint.parent.as_deref() {
@@ -221,7 +218,6 @@ impl File {
         Err(format!("joint {}: it {why}", row + 1))
     }
 
-    /// Returns true for the name of the base.
     pub(super) fn is_base(&self, word: &str) -> bool {
         let name = self.floating.as_ref().and_then(|base| base.name.as_deref());
         word == "base" || name == Some(word)
@@ -237,20 +233,12 @@ impl File {
 
     /// Returns true if the base floats, or links have more than one end: there is no hand.
     pub(super) fn is_tree(&self) -> bool {
-        self.floating.is_some() || self.branches()
-    }
-
-    fn branches(&self) -> bool {
-        let rows = 1..self.joint.len();
-        rows.into_iter()
-            .any(|row| self.carrier(row) != Ok(Some(row - 1)))
+        let branches = |row: usize| self.carrier(row) != Ok(Some(row - 1));
+        self.floating.is_some() || (1..self.joint.len()).any(branches)
     }
 
     /// Returns the row whose link holds a payload: the last, but where links branch; none for a base that
     /// floats.
-    ///
-    /// # Errors
-    /// A link that is not named, or is another than the last one of a chain.
     pub(super) fn holder(&self, link: Option<&String>) -> Result<Option<usize>, String> {
         if self.floating.is_some() && link.is_some_and(|word| self.is_base(word)) {
             return Ok(None);
@@ -304,10 +292,8 @@ pub fn read(source: &str) -> Result<File, String> {
     let floats = |rows: &&mut Vec<Value>| rows.first().is_some_and(|row| row["kind"] == "floating");
     let floating = joints.filter(floats).map(|joints| joints.remove(0));
     let mut file: File = serde_json::from_value(value).map_err(wrong)?;
-    file.floating = floating
-        .map(serde_json::from_value)
-        .transpose()
-        .map_err(wrong)?;
+    let base = floating.map(serde_json::from_value).transpose();
+    file.floating = base.map_err(wrong)?;
     Ok(file)
 }
 

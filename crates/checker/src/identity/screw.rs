@@ -128,10 +128,8 @@ impl Pose {
 
     pub(super) fn screw(&self, screw: Screw) -> Screw {
         let turned = self.rotate(screw.0);
-        Screw(
-            turned,
-            sum(self.rotate(screw.1), cross(self.origin, turned)),
-        )
+        let linear = sum(self.rotate(screw.1), cross(self.origin, turned));
+        Screw(turned, linear)
     }
 
     pub(super) fn moved(axis: Screw, turns: bool, [sin, cos]: [Number; 2], slide: Number) -> Pose {
@@ -184,10 +182,9 @@ impl<S: Ring> Body<S> {
             let row = [0, 1, 2].map(|j: usize| pose.axes[j][i].clone());
             let across = product(&p, i, &turned, k) + product(&turned, i, &p, k);
             let inertia = dot(row, column) + -(across + product(&heavy, i, &p, k));
-            if i == k {
-                inertia + twice.clone()
-            } else {
-                inertia
+            match i == k {
+                true => inertia + twice.clone(),
+                false => inertia,
             }
         };
         Body {

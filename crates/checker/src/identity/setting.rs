@@ -70,9 +70,8 @@ impl File {
         let follows = (0..count)
             .map(|row| self.follows(row))
             .collect::<Result<Vec<_>, String>>()?;
-        let movers: Vec<usize> = (0..count)
-            .filter(|&row| self.joint[row].mimic.is_none())
-            .collect();
+        let moves = |row: &usize| self.joint[*row].mimic.is_none();
+        let movers: Vec<usize> = (0..count).filter(moves).collect();
         let joint = |word: &str| find(word, movers.iter().map(|row| &self.joint[*row]));
         let mut locks = vec![None; movers.len()];
         let mut floats = self.floating.is_some();
@@ -92,11 +91,9 @@ impl File {
             None => free.collect(),
         };
         let base = if floats { 6 } else { 0 };
-        for list in [&scene.r#box.velocity, &scene.r#box.acceleration] {
-            if list
-                .as_ref()
-                .is_some_and(|rates| rates.len() != base + movers.len())
-            {
+        let lists = [&scene.r#box.velocity, &scene.r#box.acceleration];
+        for rates in lists.into_iter().flatten() {
+            if rates.len() != base + movers.len() {
                 return Err("a range of rates in the box of the scene has another length".into());
             }
         }
@@ -180,11 +177,8 @@ impl Setting<'_> {
 
     /// Returns the names of joints' places in generated code, if the robot is a tree.
     pub(crate) fn places(&self) -> Option<Places> {
-        let names: Vec<Option<&str>> = self
-            .movers
-            .iter()
-            .map(|&row| self.file.joint[row].name.as_deref())
-            .collect();
+        let name = |row: &usize| self.file.joint[*row].name.as_deref();
+        let names: Vec<Option<&str>> = self.movers.iter().map(name).collect();
         let starts = || self.limbs().iter().map(|limb| limb[0]).collect();
         let limbs = self.floats.then(starts);
         self.file.is_tree().then(|| Places::new(&names, limbs))
@@ -214,11 +208,8 @@ impl Setting<'_> {
 
     /// Returns the joints among the coordinates that results are over.
     pub fn joint_rows(&self) -> Vec<usize> {
-        let joints = self
-            .rows
-            .iter()
-            .filter_map(|row| row.checked_sub(self.base()));
-        joints.collect()
+        let joint = |row: &usize| row.checked_sub(self.base());
+        self.rows.iter().filter_map(joint).collect()
     }
 
     /// Returns the limbs of a base that floats, as joints: limbs that alternate, or of which one follows
@@ -226,11 +217,8 @@ impl Setting<'_> {
     fn limbs(&self) -> Vec<Vec<usize>> {
         let mut spans: Vec<(usize, [usize; 2])> = Vec::new();
         for (row, follows) in self.follows.iter().enumerate() {
-            let joint = self
-                .movers
-                .iter()
-                .position(|mover| *mover == follows.row)
-                .unwrap_or_default();
+            let place = self.movers.iter().position(|row| *row == follows.row);
+            let joint = place.unwrap_or_default();
             let carrier = self.file.carrier(row).ok().flatten();
             let root = carrier.map_or(row, |carrier| spans[carrier].0);
             spans.push((root, [joint; 2]));
@@ -239,35 +227,29 @@ impl Setting<'_> {
         }
         let mut limbs: Vec<Vec<usize>> = Vec::new();
         for joint in 0..self.joints() {
-            let mut spans = spans.iter().map(|(_, span)| span);
-            if !spans.any(|[first, last]| *first < joint && joint <= *last) {
-                limbs.push(Vec::new());
+            let holds = |(_, [first, last]): &(usize, [usize; 2])| *first < joint && joint <= *last;
+            match limbs.last_mut() {
+                Some(limb) if spans.iter().any(holds) => limb.push(joint),
+                _ => limbs.push(vec![joint]),
             }
-            limbs
-                .last_mut()
-                .into_iter()
-                .for_each(|limb| limb.push(joint));
         }
         limbs
     }
 
     /// Returns the places in D of the entries of one block a limb, over the rows of results.
     pub(super) fn blocks(&self) -> Vec<usize> {
-        let (limbs, coordinates) = (self.limbs(), self.sizes().coordinates);
-        let of_limb = |limb: &Vec<usize>| {
+        let (mut places, coordinates) = (Vec::new(), self.sizes().coordinates);
+        for limb in self.limbs() {
             let is_in = |row: &&usize| {
                 let joint = row.checked_sub(self.base());
                 joint.is_some_and(|joint| limb.contains(&joint))
             };
             let rows: Vec<usize> = self.rows.iter().filter(is_in).copied().collect();
-            let line = |row: &usize| {
-                rows.iter()
-                    .map(|column| row * coordinates + column)
-                    .collect()
-            };
-            rows.iter().map(line).collect::<Vec<Vec<usize>>>().concat()
-        };
-        limbs.iter().flat_map(of_limb).collect()
+            for row in &rows {
+                places.extend(rows.iter().map(|column| row * coordinates + column));
+            }
+        }
+        places
     }
 
     /// Returns how many links there are.
@@ -402,11 +384,9 @@ impl Setting<'_> {
         // Down, so that nothing is allowed that the decimal does not allow.
         let read = |place: usize| Some(number(tolerances.get(place)?)?.to_f64()?.next_down());
         let places = (0..base).chain(self.movers.iter().map(|row| base + row));
-        let read = places
-            .map(read)
-            .collect::<Option<Vec<f64>>>()
-            .filter(|_| tolerances.len() == count);
-        Ok(Some((read.ok_or(wrong)?, &tolerance.relative_to)))
+        let values: Option<Vec<f64>> = places.map(read).collect();
+        let whole = values.filter(|_| tolerances.len() == count);
+        Ok(Some((whole.ok_or(wrong)?, &tolerance.relative_to)))
     }
 
     /// Returns a coordinate's limit of `velocity`, `acceleration` or `torque`, if there is one.
@@ -417,36 +397,23 @@ impl Setting<'_> {
     /// Returns the text of a coordinate's limit: the box's, else that of the joint or the base.
     fn limit_text(&self, coordinate: usize, name: &str) -> Option<&String> {
         let bounds = &self.scene.r#box;
-        let limits = match name {
-            "velocity" => bounds.velocity.as_ref(),
-            "acceleration" => bounds.acceleration.as_ref(),
-            _ => None,
+        let (of_box, place) = match name {
+            "velocity" => (bounds.velocity.as_ref(), 0),
+            "acceleration" => (bounds.acceleration.as_ref(), 1),
+            _ => (None, 2),
         };
-        let limit = limits.and_then(|list| list.get(coordinate));
+        let limit = of_box.and_then(|list| list.get(coordinate));
         limit.or_else(|| match coordinate.checked_sub(self.base()) {
-            Some(joint) => self.joint_limit(joint, name),
-            None => self.base_limit(name)?.get(coordinate),
+            Some(joint) => {
+                let limits = &self.file.joint[*self.movers.get(joint)?].limits;
+                [&limits.velocity, &limits.acceleration, &limits.torque][place].as_ref()
+            }
+            None => {
+                let limits = &self.file.floating.as_ref()?.limits;
+                let lists = [&limits.velocity, &limits.acceleration, &limits.torque];
+                lists[place].as_ref()?.get(coordinate)
+            }
         })
-    }
-
-    fn base_limit(&self, name: &str) -> Option<&[String; 6]> {
-        let limits = &self.file.floating.as_ref()?.limits;
-        let limit = match name {
-            "velocity" => &limits.velocity,
-            "acceleration" => &limits.acceleration,
-            _ => &limits.torque,
-        };
-        limit.as_ref()
-    }
-
-    fn joint_limit(&self, joint: usize, name: &str) -> Option<&String> {
-        let limits = &self.file.joint[*self.movers.get(joint)?].limits;
-        let limit = match name {
-            "velocity" => &limits.velocity,
-            "acceleration" => &limits.acceleration,
-            _ => &limits.torque,
-        };
-        limit.as_ref()
     }
 
     /// Returns true for an operand that the scene fixes: the caller of a function may give another
@@ -473,7 +440,7 @@ impl Setting<'_> {
         self.locks.get(joint).is_some_and(Option::is_some)
     }
 
-    fn is_held(&self, coordinate: usize) -> bool {
+    pub(crate) fn is_held(&self, coordinate: usize) -> bool {
         let joint = coordinate.checked_sub(self.base());
         joint.is_some_and(|joint| self.is_locked(joint))
     }
@@ -495,20 +462,10 @@ impl Setting<'_> {
 
     /// Returns true if rates of some joint have no limit.
     pub fn is_unlimited(&self) -> bool {
-        let bounds = &self.scene.r#box;
-        let [lacks_velocity, lacks_acceleration] =
-            [bounds.velocity.is_none(), bounds.acceleration.is_none()];
-        let base = self.file.floating.as_ref().filter(|_| self.floats);
-        let base = base.map(|base| &base.limits);
-        let is_free = base.is_some_and(|limits| {
-            lacks_velocity && limits.velocity.is_none()
-                || lacks_acceleration && limits.acceleration.is_none()
-        });
-        let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
-        is_free
-            || rows.any(|limits| {
-                lacks_velocity && limits.velocity.is_none()
-                    || lacks_acceleration && limits.acceleration.is_none()
-            })
+        let is_free = |coordinate: usize| {
+            let mut limits = ["velocity", "acceleration"].into_iter();
+            limits.any(|name| self.limit_text(coordinate, name).is_none())
+        };
+        (0..self.sizes().coordinates).any(is_free)
     }
 }

@@ -47,12 +47,10 @@ impl State {
             }
         }
         for (joint, lock) in setting.locks.iter().enumerate() {
-            match lock {
-                None => {}
-                Some(_) if setting.turns_by(joint) => {
-                    state.pairs[joint] = point.angle(&angle_of(*lock)?);
-                }
-                Some(_) => state.arguments[0][joint] = point.number(&number_of(*lock)?),
+            if lock.is_some() && setting.turns_by(joint) {
+                state.pairs[joint] = point.angle(&angle_of(*lock)?);
+            } else if lock.is_some() {
+                state.arguments[0][joint] = point.number(&number_of(*lock)?);
             }
         }
         for (place, list) in state.arguments.iter_mut().enumerate().skip(1) {

@@ -134,41 +134,37 @@ impl Field {
     }
 
     /// Returns the result of the table at a frame, given as `camera:local:x_y`.
-    fn at(mut self, view: &str) -> Option<Field> {
+    fn at(mut self, text: &str) -> Option<Field> {
         const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-        let mut words = view.split(':');
-        let mut frame_view = View {
+        let mut words = text.split(':');
+        let mut view = View {
             frame: words.next()?.to_owned(),
             ..View::default()
         };
         for word in words {
             match word {
-                "local" | "world" if frame_view.axes.is_empty() => {
-                    frame_view.axes = word.to_owned()
-                }
-                "linear" => frame_view.rows.extend(0..3),
-                "angular" => frame_view.rows.extend(3..6),
+                "local" | "world" if view.axes.is_empty() => view.axes = word.to_owned(),
+                "linear" => view.rows.extend(0..3),
+                "angular" => view.rows.extend(3..6),
                 list => {
                     let place = |name| COMPONENTS.iter().position(|component| *component == name);
                     let rows = list.split('_').map(place).collect::<Option<Vec<usize>>>()?;
-                    frame_view.rows.extend(rows);
+                    view.rows.extend(rows);
                 }
             }
         }
-        frame_view.rows.is_sorted_by(|a, b| a < b).then_some(())?;
+        view.rows.is_sorted_by(|a, b| a < b).then_some(())?;
         // A pose has no axes of motion, and of what acts at a frame all six components are given.
-        let has_rows = self.moves();
-        let is_pose = self.quantity == "pose" && frame_view.axes.is_empty();
-        let is_held = self.is_of_contact() && frame_view.axes.is_empty();
-        let is_whole = frame_view.rows.is_empty() && (self.acts() || is_pose || is_held);
-        (has_rows || is_whole).then_some(())?;
+        let has_no_axes = self.quantity == "pose" || self.is_of_contact();
+        let is_whole = self.acts() || has_no_axes && view.axes.is_empty();
+        (self.moves() || view.rows.is_empty() && is_whole).then_some(())?;
         let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
-        let mut names = frame_view.frame.split(',');
-        let is_one = !frame_view.frame.contains(',') || self.is_of_contact();
+        let mut names = view.frame.split(',');
+        let is_one = !view.frame.contains(',') || self.is_of_contact();
         (is_one && names.all(is_name)).then_some(())?;
-        self.name = format!("{}_{}", self.name, view.replace([':', ','], "_"));
-        self.view = frame_view;
+        self.name = format!("{}_{}", self.name, text.replace([':', ','], "_"));
+        self.view = view;
         Some(self)
     }
 
@@ -202,18 +198,15 @@ impl Field {
         const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
             operational_inertia consistent_inverse operational_bias null_space tau_free \
             base_acceleration qdd_held forces d2qdd_dq_dq d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
-        INVERSES
-            .split_whitespace()
-            .any(|word| word == self.quantity)
+        let mut words = INVERSES.split_whitespace();
+        words.any(|word| word == self.quantity)
     }
 
     /// Returns true if it is of a fixed base alone, or of one that floats alone.
     pub(super) fn is_of_base(&self, floats: bool) -> bool {
-        const FIXED: &str = "symbols d_rot d_tran h_rot h_tran";
-        let words = if floats {
-            "tau_free base_acceleration d_base d_coupling d_limbs"
-        } else {
-            FIXED
+        let words = match floats {
+            true => "tau_free base_acceleration d_base d_coupling d_limbs",
+            false => "symbols d_rot d_tran h_rot h_tran",
         };
         !floats && self.quantity.starts_with("d2")
             || words.split(' ').any(|word| word == self.quantity)
@@ -291,12 +284,9 @@ impl Function {
             };
             let entry = functions.iter().find(|entry| entry.name == function)?;
             taken.extend(entry.arguments.iter().copied().map(Some));
-            let field = entry
-                .fields
-                .iter()
-                .find(|candidate| candidate.name == field)?
-                .clone();
-            view.map_or(Some(field.clone()), |view| field.at(view))
+            let mut fields = entry.fields.iter();
+            let field = fields.find(|candidate| candidate.name == field)?;
+            view.map_or(Some(field.clone()), |view| field.clone().at(view))
         };
         let mut names = results.iter().collect::<Vec<_>>();
         names.sort();
@@ -306,22 +296,15 @@ impl Function {
         let field_of =
             |result: &String| of(result).ok_or_else(|| format!("there is no result `{result}`"));
         let fields: Vec<Field> = results.iter().map(field_of).collect::<Result<_, _>>()?;
-        let mut others = arguments
-            .iter()
-            .filter(|argument| !taken.contains(&Some(**argument)));
-        if let Some(other) = others.next() {
+        let is_needless = |argument: &&usize| !taken.contains(&Some(**argument));
+        if let Some(other) = arguments.iter().find(is_needless) {
             let name = ARGUMENTS[*other].0;
             return Err(format!("no result of it takes `{name}`"));
         }
         let is_same = |function: &Function| {
-            let words = |fields: &[Field]| {
-                fields
-                    .iter()
-                    .map(|field| field.quantity)
-                    .collect::<Vec<_>>()
-            };
+            let word = |field: &Field| field.quantity;
             let has_frame = fields.iter().any(|field| !field.view.frame.is_empty());
-            has_frame && words(&fields) == words(&function.fields)
+            has_frame && fields.iter().map(word).eq(function.fields.iter().map(word))
         };
         let is_other = |function: &Function| match name.strip_prefix(function.name.as_str()) {
             Some("") => function.fields != fields,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::search::Search;
+use super::search::{Level, Search};
 
 const SEED: u64 = 0x9d1d;
 /// The first and the last stride of a climb, and the factor between two.
@@ -17,11 +17,8 @@ impl Search {
         let mut best = 0.0f64;
         let mut top = Vec::new();
         for _ in 0..starts {
-            let start = ranges
-                .iter()
-                .map(|[low, high]| low + (high - low) * next(&mut seed))
-                .collect();
-            let height = self.climb_from(start);
+            let draw = |[low, high]: &[f64; 2]| low + (high - low) * next(&mut seed);
+            let height = self.climb_from(ranges.iter().map(draw).collect());
             if height >= best {
                 best = height;
                 top.clone_from(&self.top);
@@ -37,10 +34,8 @@ impl Search {
     }
 
     pub(super) fn ranges(&self) -> Vec<[f64; 2]> {
-        let levels = self.levels.iter();
-        levels
-            .map(|level| level.range.unwrap_or([-PI, PI]))
-            .collect()
+        let range = |level: &Level| level.range.unwrap_or([-PI, PI]);
+        self.levels.iter().map(range).collect()
     }
 
     /// Returns F less what doubles may lose, with the angles from a level on put in anew.

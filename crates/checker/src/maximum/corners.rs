@@ -20,7 +20,6 @@ pub(super) enum Factor {
 
 /// The chains of comparisons.
 const SIDE: usize = 8;
-/// The largest table.
 const MOST_PLACES: usize = 1 << 18;
 const ASIDE: u32 = u32::MAX;
 
@@ -85,22 +84,15 @@ impl Table {
         terms: &Terms,
         joint: usize,
     ) -> Option<Table> {
-        let Terms {
-            factors,
-            velocities,
-            ..
-        } = terms;
+        let (factors, velocities) = (&terms.factors, terms.velocities);
         let class = |key: &TermKey| (without_phases(without_group(*key)), without_group(*key));
         let is_other = |key: &TermKey| factors[group(*key)] == Factor::Other;
-        let mut columns: Vec<(TermKey, TermKey)> = keys
-            .iter()
-            .filter(|key| !is_other(key))
-            .map(class)
-            .collect();
+        let known = keys.iter().filter(|key| !is_other(key));
+        let mut columns: Vec<(TermKey, TermKey)> = known.map(class).collect();
         columns.sort_unstable();
         columns.dedup();
-        let (width, rows) = (columns.len(), 1 << *velocities);
-        if *velocities == 0 || width == 0 || width * rows > MOST_PLACES {
+        let (width, rows) = (columns.len(), 1 << velocities);
+        if velocities == 0 || width == 0 || width * rows > MOST_PLACES {
             return None;
         }
         let place = |key: &TermKey| {
@@ -117,21 +109,19 @@ impl Table {
             end += run.len() as u32;
             (end, f64::from(multiple(run[0].1, joint).0).powi(2))
         });
-        let mut from = 0;
-        let others = level
-            .iter()
-            .map(|&(end, square, group)| {
-                let run = (std::mem::replace(&mut from, end), end, square);
-                (factors[group as usize], run)
-            })
-            .filter(|entry| entry.0 == Factor::Other)
-            .map(|entry| entry.1);
+        let (mut from, mut others) = (0, Vec::new());
+        for &(end, square, group) in level {
+            if factors[group as usize] == Factor::Other {
+                others.push((from, end, square));
+            }
+            from = end;
+        }
         Some(Table {
             width,
             rows,
             at: keys.iter().map(place).collect(),
             runs: runs.collect(),
-            others: others.collect(),
+            others,
         })
     }
 

@@ -42,9 +42,8 @@ pub fn is_definite(entries: &[Polynomial], errors: &[f64], ring: &Ring) -> bool 
                 // What depends on a rate, or on the error of a sine, is at most so large.
                 match entry.factors[group(key)] {
                     Factor::One => {
-                        matrix
-                            .terms
-                            .push((key - group(key) as TermKey + at as TermKey, value));
+                        let placed = key - group(key) as TermKey + at as TermKey;
+                        matrix.terms.push((placed, value));
                         sizes[at] += value.abs();
                     }
                     _ => off[at] += value.abs(),
@@ -84,10 +83,8 @@ impl Search {
         self.corner.fill(0.0);
         for &(end, square, entry) in &layout.runs {
             let run = &values[from..end as usize];
-            if next
-                .next_if(|constant| **constant as usize == from)
-                .is_some()
-            {
+            let constant = next.next_if(|place| **place as usize == from);
+            if constant.is_some() {
                 self.corner[entry as usize] += run[0];
             } else {
                 let length = run.iter().map(|x| x * x).sum::<f64>().sqrt();

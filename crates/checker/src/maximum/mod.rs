@@ -41,9 +41,8 @@ use crate::work::Work;
 /// that no result depends on another.
 const PURSE: u64 = 1_000_000_000;
 const PURSE_TIGHTER: u64 = 40_000_000;
-/// The starts of climbs.
+/// The starts of climbs to a bound, and before a wanted one is decided.
 const STARTS: usize = 16;
-/// The starts of climbs before a wanted bound is decided.
 const DECISION_STARTS: usize = 8;
 /// Bounds relative to what is reached, where none is wanted, or the wanted one is refuted.
 const LOOSE: [f64; 5] = [1.5, 2.0, 4.0, 16.0, 256.0];

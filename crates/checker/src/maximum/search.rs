@@ -74,7 +74,6 @@ pub(super) struct Search {
     pub(super) above: Vec<f64>,
     pub(super) steps: u64,
     pub(super) corner: Vec<f64>,
-    /// The sums of a table.
     sums: Vec<f64>,
 }
 
@@ -92,37 +91,29 @@ impl Search {
             ..Search::default()
         };
         for joint in order(&expansion.terms, ring.angles.len()) {
-            let degree = keys
-                .iter()
-                .map(|key| multiple(*key, joint).0)
-                .max()
-                .unwrap_or(0);
+            let of_joint = |key: &TermKey| multiple(*key, joint);
+            let mut bases: Vec<(u32, bool)> = keys.iter().map(of_joint).collect();
+            bases.sort_unstable();
+            bases.dedup();
+            let degree = bases.last().map_or(0, |base| base.0);
             if degree == 0 {
                 continue;
             }
-            let is_constant = |key: TermKey| without_phases(key) >> 16 == 0;
-            let constants = keys
-                .iter()
-                .zip(0..)
-                .filter(|(key, _)| is_constant(**key))
-                .map(|(_, at)| at)
-                .collect();
+            let constant = |(key, at): (&TermKey, u32)| {
+                let is_constant = without_phases(*key) >> 16 == 0;
+                is_constant.then_some(at)
+            };
+            let constants = keys.iter().zip(0..).filter_map(constant).collect();
             let mut end = 0;
             let same = |a: &TermKey, b: &TermKey| without_phases(*a) == without_phases(*b);
-            let runs: Vec<(u32, f64, u32)> = keys
-                .chunk_by(same)
-                .map(|run| {
-                    end += run.len() as u32;
-                    let square = f64::from(multiple(run[0], joint).0).powi(2);
-                    (end, square, group(run[0]) as u32)
-                })
-                .collect();
-            let mut bases: Vec<(u32, bool)> =
-                keys.iter().map(|key| multiple(*key, joint)).collect();
-            bases.sort_unstable();
-            bases.dedup();
+            let ended = |run: &[TermKey]| {
+                end += run.len() as u32;
+                let square = f64::from(multiple(run[0], joint).0).powi(2);
+                (end, square, group(run[0]) as u32)
+            };
+            let runs: Vec<(u32, f64, u32)> = keys.chunk_by(same).map(ended).collect();
             let moved = |(key, at): (&TermKey, u32)| {
-                let base = bases.binary_search(&multiple(*key, joint));
+                let base = bases.binary_search(&of_joint(key));
                 (place(key & !bits(joint)), at, base.unwrap_or(0) as u32)
             };
             let mut moves: Vec<((TermKey, TermKey), u32, u32)> =
@@ -150,10 +141,8 @@ impl Search {
             longest += 16 * degree as usize + 4;
             keys = next;
         }
-        search.factors = keys
-            .iter()
-            .map(|key| expansion.factors[group(*key)])
-            .collect();
+        let factor = |key: &TermKey| expansion.factors[group(*key)];
+        search.factors = keys.iter().map(factor).collect();
         search.angles = vec![0.0; search.levels.len()];
         search.slack = match mass < MOST_MASS {
             true => (expansion.rest + mass * longest as f64 * f64::EPSILON) * (1.0 + 1e-9),
@@ -273,7 +262,6 @@ impl Search {
                 row[lane] = if is_sine { s } else { c };
             }
         }
-        let layout = &self.levels[level];
         let (before, behind) = self.columns.split_at_mut(level + 1);
         let column = &before[level];
         let values = &column[column.len() - layout.parts.len()..];
@@ -303,7 +291,6 @@ impl Search {
         self.put(level, &[angle]);
     }
 
-    /// Shows F ≤ B everywhere.
     pub(super) fn shows_all(&mut self, most: f64) -> Verdict {
         self.above.clear();
         (1..self.columns.len()).for_each(|level| self.columns[level].clear());

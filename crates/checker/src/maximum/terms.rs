@@ -82,9 +82,8 @@ fn of_power(c: u32, s: u32) -> Vec<(u32, f64)> {
 
 impl Terms {
     pub(super) fn new(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> Terms {
-        let powers: Vec<[Vec<(u32, f64)>; 2]> = (0..MOST_POWER)
-            .map(|c| [0, 1].map(|s| of_power(c, s)))
-            .collect();
+        let both = |c: u32| [0, 1].map(|s| of_power(c, s));
+        let powers: Vec<[Vec<(u32, f64)>; 2]> = (0..MOST_POWER).map(both).collect();
         let mut known: HashMap<Powers, (f64, f64)> = HashMap::new();
         let mut summands: Vec<((Powers, TermKey), f64)> = Vec::new();
         let [mut parts, mut next] = [Vec::new(), Vec::new()];
@@ -93,8 +92,7 @@ impl Terms {
             parts.clear();
             parts.push((0, value));
             for joint in 0..ring.angles.len() {
-                let [s, c] =
-                    [Variable::Sin, Variable::Cos].map(|variable| exponent(key, variable, joint));
+                let [s, c] = [Variable::Sin, Variable::Cos].map(|kind| exponent(key, kind, joint));
                 if s + c > 0 {
                     next.clear();
                     for &(key, value) in &parts {
@@ -173,11 +171,7 @@ fn factors(groups: &[Powers], ring: &Ring) -> (Vec<Factor>, usize) {
         let powers = group.unmarked();
         let power = |joint: usize| exponent(powers, Variable::Velocity, joint);
         let others = [Acceleration, EvenError, OddError];
-        let is_bare = |joint: usize| {
-            others
-                .iter()
-                .all(|other| exponent(powers, *other, joint) == 0)
-        };
+        let is_bare = |joint: usize| others.map(|kind| exponent(powers, kind, joint)) == [0; 3];
         let is_product = powers != Powers::default()
             && (0..joints).all(|joint| power(joint) <= 1 && is_bare(joint))
             && (0..MAX_LOADS).all(|entry| exponent(powers, Variable::Load, entry) == 0)

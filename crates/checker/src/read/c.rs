@@ -13,7 +13,7 @@
 
 use super::Source;
 use super::reader::{Read, Reader, commas, joint_of};
-use crate::claim::whole;
+use super::tokens::whole;
 use crate::program::Operand;
 
 /// The names of a function in a header.
@@ -89,18 +89,13 @@ impl<'r> Reader<'r> {
             return String::new();
         };
         let float = self.head.float();
-        let fields = self
-            .head
-            .lengths()
-            .map(|(field, length)| format!("{float} {field}[{length}]; "))
-            .collect::<String>();
+        let field = |(field, length)| format!("{float} {field}[{length}]; ");
+        let fields: String = self.head.lengths().map(field).collect();
         format!("typedef struct {{ {fields} }} {name};")
     }
 
     fn is_number(&self) -> bool {
-        let is_struct = self
-            .symbols
-            .is_some_and(|symbols| symbols.structure.is_some());
+        let is_struct = self.symbols.is_some_and(|names| names.structure.is_some());
         !is_struct && self.head.fields.iter().all(|(_, shape)| shape.is_empty())
     }
 
@@ -113,14 +108,11 @@ impl<'r> Reader<'r> {
             };
             (kind, argument.name.to_owned(), argument.length)
         });
-        let results = self
-            .head
-            .lengths()
-            .map(|(name, length)| (float.to_owned(), name.to_owned(), length));
+        let result = |(name, length): (&str, usize)| (float.to_owned(), name.to_owned(), length);
         let written = match &symbols.structure {
             Some(kind) => vec![(kind.clone(), "result".to_owned(), 1)],
             None if self.is_number() => Vec::new(),
-            None => results.collect(),
+            None => self.head.lengths().map(result).collect(),
         };
         arguments.chain(written).collect()
     }
@@ -140,9 +132,8 @@ impl<'r> Reader<'r> {
                 self.expect("(")?;
                 let name = self.next();
                 // Numbers are not lvalues that change.
-                if name.starts_with('k') || !self.arrays.contains_key(name) {
-                    return self.refuse("an array of lanes expected");
-                }
+                let is_array = !name.starts_with('k') && self.arrays.contains_key(name);
+                self.ensure(is_array, "an array of lanes expected")?;
                 self.expect_all(");")?;
             } else if self.takes_store()? {
                 continue;
@@ -166,20 +157,12 @@ impl<'r> Reader<'r> {
                     std::mem::take(&mut angles)
                 };
                 self.expect_all(", sines, cosines);")?;
-                if called.len() != length {
-                    return self.refuse("a call for as many angles as there are expected");
-                }
+                let why = "a call for as many angles as there are expected";
+                self.ensure(called.len() == length, why)?;
             } else if self.peek(0) == "(" {
                 self.expect_all("( void )")?;
                 let name = self.next();
-                if self
-                    .head
-                    .arguments
-                    .iter()
-                    .all(|argument| argument.name != name)
-                {
-                    return self.refuse("an argument expected");
-                }
+                self.ensure(self.argument(name).is_some(), "an argument expected")?;
                 self.expect(";")?;
             } else if self.peek(0) == "const" && self.peek(1) == kind {
                 let joint = joint_of(self.peek(2)).filter(|joint| *joint < self.head.joints);
@@ -193,11 +176,9 @@ impl<'r> Reader<'r> {
                 // Once for all calls: numbers alone.
                 let name = self.c_array()?;
                 let mut values = self.arrays[name].iter().flatten().flatten();
-                if !name.starts_with('k')
-                    || values.any(|entry| !matches!(entry.1, Operand::Constant(_)))
-                {
-                    return self.refuse("an array of numbers expected");
-                }
+                let are_numbers = values.all(|entry| matches!(entry.1, Operand::Constant(_)));
+                let is_good = name.starts_with('k') && are_numbers;
+                self.ensure(is_good, "an array of numbers expected")?;
             } else if self.take("const") {
                 self.expect(float)?;
                 let name = self.next();
@@ -228,10 +209,9 @@ impl<'r> Reader<'r> {
         let count = self.peek(1);
         self.expect_all(&format!("[{count}] = {{"))?;
         let angles = self.list("}", Self::angle)?;
-        match angles.len().to_string() == count {
-            true => Ok(angles),
-            false => self.refuse("as many angles as in the array expected"),
-        }
+        let is_full = angles.len().to_string() == count;
+        self.ensure(is_full, "as many angles as in the array expected")?;
+        Ok(angles)
     }
 
     /// The name was read: its letter says if it is a sine, a cosine, a root or an operation.
@@ -291,22 +271,16 @@ impl<'r> Reader<'r> {
             _ => format!("({index}U * {count}) + {one}"),
         };
         let place = |index: usize| entry(index, ["n", "s"]);
-        let of_load = if symbols.is_cuda {
-            ["loads", "l"]
-        } else {
-            ["n", "s"]
-        };
-        let restrict = match symbols.is_cuda {
-            true => "__restrict__".to_owned(),
-            false => format!("{macros}_RESTRICT"),
+        let (of_load, restrict) = match symbols.is_cuda {
+            true => (["loads", "l"], "__restrict__".to_owned()),
+            false => (["n", "s"], format!("{macros}_RESTRICT")),
         };
         let mut columns = "const size_t n".to_owned();
         let (mut state, mut stored, mut to) = (String::new(), String::new(), String::new());
         for argument in &self.head.arguments {
-            let loads = if argument.name == "load" {
-                ", const size_t loads"
-            } else {
-                ""
+            let loads = match argument.name {
+                "load" => ", const size_t loads",
+                _ => "",
             };
             columns += &format!("{loads}, const {float} *{restrict} {}", argument.name);
         }
@@ -343,11 +317,7 @@ impl<'r> Reader<'r> {
                 stored += &format!("{field}[{}] = {from}[{index}]; ", place(index));
             }
         }
-        let passed = commas(
-            parameters
-                .iter()
-                .map(|parameter| format!("{}_s", parameter.1)),
-        );
+        let passed = commas(parameters.iter().map(|(_, name, _)| format!("{name}_s")));
         let iteration =
             |when: &str, call: &str| format!("{state}{when}{to}{call}{passed}); {stored}");
         let (single, batch) = (format!("{}(", symbols.single), &symbols.batch);
@@ -373,19 +343,15 @@ impl<'r> Reader<'r> {
             let largest = if self.head.is_single { 100.0 } else { 8192.0 };
             let end = if self.head.is_single { "F" } else { "" };
             let most = largest / joints.next_power_of_two() as f64;
-            let near = (0..joints)
-                .map(|k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})"))
-                .collect::<Vec<String>>()
-                .join(" && ");
-            format!("if ({near}) {{ continue; }} ")
+            let is_near = |k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})");
+            let near: Vec<String> = (0..joints).map(is_near).collect();
+            format!("if ({}) {{ continue; }} ", near.join(" && "))
         };
         let loops = |load: &str| {
+            let any = format!("{}(0, ", symbols.any);
             let statements = match is_told {
                 false => looped(load, "", &single),
-                true => {
-                    let first = looped(load, "", &format!("{}(0, ", symbols.any));
-                    first + &looped(load, &near(), &single)
-                }
+                true => looped(load, "", &any) + &looped(load, &near(), &single),
             };
             format!("{macros}_SIMD {statements}")
         };

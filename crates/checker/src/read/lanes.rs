@@ -1,7 +1,7 @@
 //! Loops over lanes, which functions in Rust and in C have, and their arrays.
 
 use super::reader::{MOST_STEPS, Read, Reader};
-use crate::claim::whole;
+use super::tokens::whole;
 use crate::program::Operand;
 
 const MOST_LANES: usize = 64;
@@ -34,11 +34,10 @@ impl<'r> Reader<'r> {
             self.expect(",")?;
         }
         self.expect(close)?;
-        if let Some([count, lanes]) = sizes
-            && (rows.len().to_string() != count
-                || rows.iter().any(|row| row.len().to_string() != lanes))
-        {
-            return self.refuse("as many numbers as in the array expected");
+        if let Some([count, lanes]) = sizes {
+            let has_lanes = rows.iter().all(|row| row.len().to_string() == lanes);
+            let is_full = has_lanes && rows.len().to_string() == count;
+            self.ensure(is_full, "as many numbers as in the array expected")?;
         }
         self.array(name, rows)
     }
@@ -46,10 +45,8 @@ impl<'r> Reader<'r> {
     fn array(&mut self, name: &'r str, rows: Vec<Vec<ArrayValue>>) -> Read<()> {
         let number = name.strip_prefix(['k', 'u', 'w']);
         let is_name = number.and_then(whole).is_some() && self.lane.is_none();
-        match is_name && self.arrays.insert(name, rows).is_none() {
-            true => Ok(()),
-            false => self.refuse("another name of an array expected"),
-        }
+        let is_new = is_name && self.arrays.insert(name, rows).is_none();
+        self.ensure(is_new, "another name of an array expected")
     }
 
     /// Takes the array that a loop writes: `w1` of so many rows and lanes.
@@ -67,9 +64,8 @@ impl<'r> Reader<'r> {
     /// Takes a loop behind its head. It is what each lane does, one after the other.
     pub(super) fn lanes(&mut self, lanes: &str, body: impl Fn(&mut Self) -> Read<()>) -> Read<()> {
         let count = whole(lanes).unwrap_or(0);
-        if self.lane.is_some() || !(2..=MOST_LANES).contains(&count) {
-            return self.refuse("a loop over lanes expected");
-        }
+        let is_loop = self.lane.is_none() && (2..=MOST_LANES).contains(&count);
+        self.ensure(is_loop, "a loop over lanes expected")?;
         let (start, names) = (self.at, self.order.len());
         let first = self.function.program.steps.len();
         for lane in 0..count {
@@ -80,9 +76,8 @@ impl<'r> Reader<'r> {
         }
         self.lane = None;
         let mut entries = self.arrays.values().flatten().flatten();
-        if entries.any(Option::is_none) {
-            return self.refuse("an entry that no lane writes");
-        }
+        let are_written = entries.all(Option::is_some);
+        self.ensure(are_written, "an entry that no lane writes")?;
         let rows = (self.function.program.steps.len() - first) / count;
         self.function.loops.push([first, rows, count]);
         Ok(())
@@ -100,9 +95,8 @@ impl<'r> Reader<'r> {
         let value = self.signed()?;
         self.expect(";")?;
         let entry = self.arrays.get_mut(array).map(|rows| &mut rows[row][lane]);
-        match entry.is_some_and(|entry| entry.replace(value).is_some()) {
-            true => self.refuse("an entry is written twice"),
-            false => Ok(true),
-        }
+        let is_written = entry.is_some_and(|entry| entry.replace(value).is_some());
+        self.ensure(!is_written, "an entry is written twice")?;
+        Ok(true)
     }
 }

@@ -23,12 +23,8 @@ use crate::Fault;
 use crate::program::Program;
 
 pub use self::c::Symbols;
-pub(crate) use self::tokens::{is_letter, is_plain_sign};
-#[cfg(feature = "certify")]
-pub(crate) use self::{
-    reader::number,
-    tokens::{has_only, lines},
-};
+pub(crate) use self::reader::number;
+pub(crate) use self::tokens::{has_only, is_letter, is_plain_sign, lines, whole};
 
 /// An argument of a function.
 #[derive(Clone, Copy, Debug)]
@@ -162,7 +158,7 @@ impl<'t> Text<'t> {
             None => reader.rust(has_many)?,
             Some(symbols) => reader.c(symbols, has_many)?,
         }
-        let is_whole = reader.has_all();
+        let is_whole = reader.first == 0 && reader.at == reader.tokens.len();
         Ok((reader.function, is_whole))
     }
 }

@@ -59,10 +59,6 @@ impl<'r> Reader<'r> {
         }
     }
 
-    pub(super) fn has_all(&self) -> bool {
-        self.first == 0 && self.at == self.tokens.len()
-    }
-
     pub(super) fn peek(&self, ahead: usize) -> &'r str {
         let token = self.tokens.get(self.at + ahead);
         token.map_or("", |token| token.text)
@@ -83,7 +79,11 @@ impl<'r> Reader<'r> {
     pub(super) fn refuse<T>(&self, why: &str) -> Read<T> {
         let token = self.tokens.get(self.at.saturating_sub(1));
         let (line, word) = token.map_or((1, ""), |token| (token.line, token.text));
-        Err(Fault::text(line, format!("{why}, at `{word}`")))
+        Err(Fault::Text(line, format!("{why}, at `{word}`")))
+    }
+
+    pub(super) fn ensure(&self, holds: bool, why: &str) -> Read<()> {
+        if holds { Ok(()) } else { self.refuse(why) }
     }
 
     pub(super) fn expect(&mut self, word: &str) -> Read<()> {
@@ -95,7 +95,7 @@ impl<'r> Reader<'r> {
         let token = self.tokens.get(place).or(self.tokens.last());
         let (line, found) = (token.map_or(1, |token| token.line), self.peek(0));
         let why = format!("`{word}` expected, not `{found}`");
-        Err(Fault::text(line, why))
+        Err(Fault::Text(line, why))
     }
 
     pub(super) fn expect_all(&mut self, text: &str) -> Read<()> {
@@ -104,10 +104,8 @@ impl<'r> Reader<'r> {
     }
 
     pub(super) fn take_all(&mut self, text: &str) -> Read<bool> {
-        let words = tokens::read(text, self.symbols.is_some())?;
-        let is_next = words
-            .first()
-            .is_some_and(|token| token.text == self.peek(0));
+        let (words, next) = (tokens::read(text, self.symbols.is_some())?, self.peek(0));
+        let is_next = words.first().is_some_and(|token| token.text == next);
         if is_next {
             self.expect_all(text)?;
         }
@@ -127,23 +125,15 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    pub(super) fn expect_head(&mut self, text: &str) -> Read<()> {
-        for token in tokens::read(text, self.symbols.is_some())? {
-            let (spelling, word) = (self.peek(0), token.text);
-            self.expect(if self.is_word(spelling, word) {
-                spelling
-            } else {
-                word
-            })?;
-        }
-        Ok(())
+    pub(super) fn argument(&self, name: &str) -> Option<&'r Argument<'r>> {
+        let mut arguments = self.head.arguments.iter();
+        arguments.find(|argument| argument.name == name)
     }
 
     /// In Rust, an argument that nothing reads has an underscore.
     fn is_word(&self, spelling: &str, word: &str) -> bool {
-        let mut arguments = self.head.arguments.iter();
         let is_unread = self.symbols.is_none() && spelling.strip_prefix('_') == Some(word);
-        spelling == word || is_unread && arguments.any(|argument| argument.name == word)
+        spelling == word || is_unread && self.argument(word).is_some()
     }
 
     pub(super) fn begin(&mut self, heads: &[String]) -> Read<usize> {
@@ -158,11 +148,15 @@ impl<'r> Reader<'r> {
             let first = places.max_by_key(|place| count(*place)).unwrap_or(0);
             let is_whole = |place: usize| count(place) == words.len();
             if (first + 1..self.tokens.len()).any(is_whole) {
-                return Err(Fault::text(1, format!("`{head}` is defined twice")));
+                return Err(Fault::Text(1, format!("`{head}` is defined twice")));
             }
             if is_whole(first) || index == heads.len() {
                 (self.at, self.first) = (first, first);
-                self.expect_head(head)?;
+                for token in &words {
+                    let (spelling, word) = (self.peek(0), token.text);
+                    let is_spelled = self.is_word(spelling, word);
+                    self.expect(if is_spelled { spelling } else { word })?;
+                }
                 return Ok(index - 1);
             }
         }
@@ -176,9 +170,8 @@ impl<'r> Reader<'r> {
 
     pub(super) fn forget_names(&mut self, count: usize, handed_on: &[&'r str]) -> Read<()> {
         let names = self.order.split_off(count).into_iter();
-        let mut inside: HashMap<&str, Operand<f64>> = names
-            .filter_map(|name| self.names.remove_entry(name))
-            .collect();
+        let entries = names.filter_map(|name| self.names.remove_entry(name));
+        let mut inside: HashMap<&str, Operand<f64>> = entries.collect();
         for &name in handed_on {
             let Some(value) = inside.remove(name) else {
                 return self.refuse("a part passes on an undefined value");
@@ -250,8 +243,7 @@ impl<'r> Reader<'r> {
             return self.literal().map(Operand::Constant);
         }
         let word = self.next();
-        let mut arguments = self.head.arguments.iter();
-        let argument = arguments.find(|argument| argument.name == word);
+        let argument = self.argument(word);
         if self.symbols.is_some() && argument.is_some_and(Argument::is_struct) {
             self.expect_all(&format!("->{word}"))?;
         }
@@ -333,9 +325,7 @@ impl<'r> Reader<'r> {
             self.function.program.steps.push(step);
         }
         let count = self.function.program.steps.len();
-        if count > MOST_STEPS {
-            return self.refuse("fewer operations expected");
-        }
+        self.ensure(count <= MOST_STEPS, "fewer operations expected")?;
         let value = Operand::Step(count - 1);
         let number = name.strip_prefix('t').unwrap_or_default();
         let is_name = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
@@ -366,9 +356,8 @@ impl<'r> Reader<'r> {
             (false, true) => ").mul_add(",
             (false, false) => ".mul_add(",
         })?;
-        if matches!(left, Operand::Constant(_)) {
-            return self.refuse("a value expected before the factor");
-        }
+        let is_value = !matches!(left, Operand::Constant(_));
+        self.ensure(is_value, "a value expected before the factor")?;
         let right = self.operand()?;
         self.expect(",")?;
         // A sign before a literal, too, is the operation's.
@@ -390,14 +379,12 @@ impl<'r> Reader<'r> {
 
     /// Roots are correctly rounded by every library.
     pub(super) fn speed(&mut self, name: &'r str, libraries: &[&str]) -> Read<()> {
-        if self.literal()?.to_bits() != 1f64.to_bits() {
-            return self.refuse("1 expected over a root");
-        }
+        let bits = self.literal()?.to_bits();
+        self.ensure(bits == 1f64.to_bits(), "1 expected over a root")?;
         self.expect("/")?;
         if !libraries.is_empty() {
-            if !libraries.contains(&self.next()) {
-                return self.refuse("a library of roots expected");
-            }
+            let is_known = libraries.contains(&self.next());
+            self.ensure(is_known, "a library of roots expected")?;
             self.expect("::")?;
         }
         self.expect_all(&format!("sqrt{} (", self.suffix()))?;
@@ -405,22 +392,16 @@ impl<'r> Reader<'r> {
         self.expect("+")?;
         let width = self.literal()?;
         self.expect(")")?;
-        let mut arguments = self.head.arguments.iter();
-        let place = arguments
-            .find(|argument| argument.name == "qd")
-            .map(|argument| argument.place);
-        let joint = match square {
-            ('*', [Operand::Entry(a, i), Operand::Entry(b, k)])
-                if (a, i) == (b, k) && place == Some(a) =>
-            {
-                i
-            }
-            _ => return self.refuse("the square of a velocity expected under a root"),
+        let place = self.argument("qd").map(|argument| argument.place);
+        let why = "the square of a velocity expected under a root";
+        let ('*', [Operand::Entry(argument, joint), other]) = square else {
+            return self.refuse(why);
         };
-        let last = self.function.speeds.last();
-        if last.is_some_and(|last| last.0 >= joint) || name != format!("r{}", joint + 1) {
-            return self.refuse("another name or order of roots expected");
-        }
+        let is_square = other == Operand::Entry(argument, joint) && place == Some(argument);
+        self.ensure(is_square, why)?;
+        let is_behind = (self.function.speeds.last()).is_none_or(|last| last.0 < joint);
+        let is_next = is_behind && name == format!("r{}", joint + 1);
+        self.ensure(is_next, "another name or order of roots expected")?;
         self.function.speeds.push((joint, width));
         self.name(name, Operand::Speed(joint));
         Ok(())
@@ -434,9 +415,7 @@ impl<'r> Reader<'r> {
         source: Source,
     ) -> Read<()> {
         // What a lane computes is out of scope behind it.
-        if self.lane.is_some() {
-            return self.refuse("sines are taken before lanes");
-        }
+        self.ensure(self.lane.is_none(), "sines are taken before lanes")?;
         let letter = if is_sine { 's' } else { 'c' };
         if name != format!("{letter}{}", joint + 1) || joint >= self.head.joints {
             return self.refuse(&format!("`{letter}{}` expected for `{name}`", joint + 1));
@@ -468,10 +447,8 @@ impl<'r> Reader<'r> {
             false
         };
         let value = Operand::Sine(joint, is_sine);
-        match is_good && self.name(name, value) {
-            true => Ok(()),
-            false => self.refuse("the sine of an angle is defined twice"),
-        }
+        let is_new = is_good && self.name(name, value);
+        self.ensure(is_new, "the sine of an angle is defined twice")
     }
 
     fn polynomial_name(&self, joint: usize, number: usize) -> String {
@@ -482,24 +459,19 @@ impl<'r> Reader<'r> {
     }
 
     pub(super) fn polynomial_step(&mut self, name: &'r str, joint: usize) -> Read<()> {
-        if self.lane.is_some() {
-            return self.refuse("polynomials stand before lanes");
-        }
+        self.ensure(self.lane.is_none(), "polynomials stand before lanes")?;
         if name == self.polynomial_name(joint, 1) {
             self.begin_polynomial(joint);
         }
         self.is_angle = true;
         let step = self.binary()?;
         self.is_angle = false;
-        if step.0 == '/' {
-            return self.refuse("no operation of a polynomial");
-        }
+        self.ensure(step.0 != '/', "no operation of a polynomial")?;
         let (known, steps) = &mut self.polynomial;
         steps.push(step);
         let (is_known, count) = (*known == joint, steps.len());
-        if count > MOST_OF_ANGLE {
-            return self.refuse("more than 256 operations of a polynomial");
-        }
+        let why = "more than 256 operations of a polynomial";
+        self.ensure(count <= MOST_OF_ANGLE, why)?;
         self.names.insert(name, Operand::Step(count - 1));
         match is_known && name == self.polynomial_name(joint, count) {
             true => Ok(()),

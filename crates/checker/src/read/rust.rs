@@ -12,16 +12,14 @@
 use super::reader::{Read, Reader, commas, joint_of};
 use super::{Argument, ReadFunction, Source};
 
-const TYPES: [(&str, &str); 4] = [
-    ("g", "Gravity"),
-    ("load", "Load"),
-    ("payload", "Payload"),
-    ("bodies", "Bodies"),
-];
-
 fn type_of(argument: &Argument) -> Option<&'static str> {
-    let entry = TYPES.iter().find(|(name, _)| *name == argument.name);
-    entry.map(|(_, kind)| *kind)
+    Some(match argument.name {
+        "g" => "Gravity",
+        "load" => "Load",
+        "payload" => "Payload",
+        "bodies" => "Bodies",
+        _ => return None,
+    })
 }
 
 impl<'r> Reader<'r> {
@@ -48,10 +46,9 @@ impl<'r> Reader<'r> {
     fn returned(&self) -> [String; 2] {
         let fields = self.head.fields.as_slice();
         if let Some(name) = self.head.structure() {
-            let fields = fields
-                .iter()
-                .map(|(field, shape)| format!("{field}: {}, ", array(shape)));
-            let value = format!("{name} {{ {} }}", fields.collect::<String>());
+            let part = |(field, shape): &(&str, Vec<usize>)| format!("{field}: {}, ", array(shape));
+            let values: String = fields.iter().map(part).collect();
+            let value = format!("{name} {{ {values} }}");
             return [name, value];
         }
         match fields {
@@ -171,14 +168,12 @@ impl<'r> Reader<'r> {
     }
 
     fn name_together(&mut self, angles: &[usize], names: [&[&'r str]; 2]) -> Read<()> {
-        if names.iter().any(|list| list.len() != angles.len()) {
-            return self.refuse("as many sines, cosines and angles are expected");
-        }
+        let are_alike = names.iter().all(|list| list.len() == angles.len());
+        self.ensure(are_alike, "as many sines, cosines and angles are expected")?;
         for (place, &joint) in angles.iter().enumerate() {
             let pair = names.map(|names| names[place]);
-            if pair == ["_"; 2] {
-                return self.refuse("neither sine nor cosine of an angle is taken");
-            }
+            let why = "neither sine nor cosine of an angle is taken";
+            self.ensure(pair != ["_"; 2], why)?;
             for (name, is_sine) in pair.into_iter().zip([true, false]) {
                 if name != "_" {
                     self.name_sine(name, joint, is_sine, Source::Together)?;
@@ -194,9 +189,8 @@ impl<'r> Reader<'r> {
         self.expect_all("= {")?;
         let before = self.order.len();
         self.statements(true)?;
-        if self.part_names()? != names {
-            return self.refuse("other names than those before the part");
-        }
+        let is_same = self.part_names()? == names;
+        self.ensure(is_same, "other names than those before the part")?;
         self.expect("}")?;
         self.forget_names(before, &names)
     }
@@ -256,32 +250,21 @@ impl<'r> Reader<'r> {
             format!("{function:?}")
         };
         let vectors = std::mem::replace(&mut self.function, single.clone());
-        if sorted(vectors) != sorted(single) {
-            return self.refuse("other operations over vectors than of one state");
+        let why = "other operations over vectors than of one state";
+        self.ensure(sorted(vectors) == sorted(single), why)?;
+        let (mut parameters, mut passed, mut rows) = (String::new(), Vec::new(), 0);
+        for argument in &head.arguments {
+            let (name, length) = (argument.name, argument.length);
+            if let Some(kind) = type_of(argument) {
+                parameters += &format!("{name}: &[{kind}], ");
+                passed.push(format!("dalembert_batch::Argument::Rows(&{name})"));
+                rows += length;
+            } else {
+                parameters += &format!("{name}: &[&[{scalar}]; {length}], ");
+                passed.push(format!("dalembert_batch::Argument::Columns({name})"));
+            }
         }
-        let parameters = head
-            .arguments
-            .iter()
-            .map(|argument| match type_of(argument) {
-                Some(kind) => format!("{}: &[{kind}], ", argument.name),
-                None => format!("{}: &[&[{scalar}]; {}], ", argument.name, argument.length),
-            });
-        let passed = head
-            .arguments
-            .iter()
-            .map(|argument| match type_of(argument) {
-                Some(_) => format!("dalembert_batch::Argument::Rows(&{})", argument.name),
-                None => format!("dalembert_batch::Argument::Columns({})", argument.name),
-            });
-        let (parameters, passed) = (parameters.collect::<String>(), commas(passed));
-        let rows = head
-            .arguments
-            .iter()
-            .filter(|argument| type_of(argument).is_some());
-        let (name, rows) = (
-            head.name,
-            rows.map(|argument| argument.length).sum::<usize>(),
-        );
+        let (name, passed) = (head.name, passed.join(", "));
         self.expect_all(&format!(
             "}} }} pub fn {name}_columns({parameters}results: &mut [&mut [{scalar}]; {results}])
             -> Result<(), dalembert_batch::Unequal> {{ let arguments = [{passed}];
@@ -300,9 +283,7 @@ fn array(shape: &[usize]) -> String {
 }
 
 pub(super) fn camel(name: &str) -> String {
-    let words = name
-        .split('_')
-        .filter_map(|word| word.split_at_checked(1))
-        .map(|(first, rest)| first.to_ascii_uppercase() + rest);
-    words.collect()
+    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
+    let capital = |(first, rest): (&str, &str)| first.to_ascii_uppercase() + rest;
+    words.map(capital).collect()
 }

@@ -41,11 +41,16 @@ pub(crate) fn is_plain_sign(c: char) -> bool {
     c.is_alphanumeric() || "_-./ ".contains(c)
 }
 
+/// Reads an integer as it is printed: no other text has its value.
+pub(crate) fn whole(word: &str) -> Option<usize> {
+    let number = word.parse().ok()?;
+    (word == format!("{number}")).then_some(number)
+}
+
 /// A string of an array, alone on its line.
 fn is_name(words: &str) -> bool {
-    let name = words
-        .strip_prefix('"')
-        .and_then(|rest| rest.strip_suffix("\","));
+    let behind = words.strip_prefix('"');
+    let name = behind.and_then(|rest| rest.strip_suffix("\","));
     name.is_some_and(|name| name.chars().all(is_plain_sign))
 }
 
@@ -67,11 +72,9 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Faul
             is_good &= end.is_none_or(|(_, behind)| behind.is_empty());
             is_comment = end.is_none();
         } else if !words.is_empty() && (is_c || !is_plain(number, line)) {
+            let has_other = DIGRAPHS.iter().any(|digraph| words.contains(digraph));
             is_good &= match is_c {
-                true => {
-                    let has_other = DIGRAPHS.iter().any(|digraph| words.contains(digraph));
-                    words.starts_with('#') || has_only(words, SIGNS) && !has_other
-                }
+                true => words.starts_with('#') || has_only(words, SIGNS) && !has_other,
                 false => has_only(words, RUST_SIGNS) || is_name(words),
             };
             lines.push((number, words));
@@ -79,7 +82,7 @@ pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, Faul
         }
         if !is_good {
             let why = format!("not generated code: `{line}`");
-            return Err(Fault::text(number, why));
+            return Err(Fault::Text(number, why));
         }
     }
     Ok(lines)
@@ -99,7 +102,7 @@ pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, Fault> {
             let (text, behind) = rest.split_at(length(rest, is_c));
             tokens.push(Token { text, line });
             if tokens.len() > MOST_WORDS {
-                return Err(Fault::text(line, "more words than are read"));
+                return Err(Fault::Text(line, "more words than are read".into()));
             }
             rest = behind.trim_start_matches(' ');
         }

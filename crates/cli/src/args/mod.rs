@@ -14,7 +14,6 @@ use dalembert_import::ChainArgs;
 
 /// The help heading of the options for the code.
 pub const CODE: &str = "Code options";
-
 const SEARCH: &str = "Search options";
 
 /// A robot and the options of a request.
@@ -51,12 +50,8 @@ impl<const ALL: bool> FromArgMatches for Options<ALL> {
         let is_given =
             |row: &&OptionRow| matches.value_source(row.name) == Some(ValueSource::CommandLine);
         for row in Self::rows().filter(is_given) {
-            let values: Vec<&str> = matches
-                .get_many::<String>(row.name)
-                .into_iter()
-                .flatten()
-                .map(String::as_str)
-                .collect();
+            let matched = matches.get_many::<String>(row.name).into_iter();
+            let values: Vec<&str> = matched.flatten().map(String::as_str).collect();
             // This cannot fail: the name is in the table.
             let _ = self.0.set(row.name, &values.join(","));
         }

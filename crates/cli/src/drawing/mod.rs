@@ -81,9 +81,8 @@ fn bodies(arm: &Arm<f64>, frames: &[Columns<f64>]) -> Vec<Body> {
         }
     };
     let (virtual_joints, base) = (arm.base_joints(), Columns::identity());
-    let base = virtual_joints
-        .checked_sub(1)
-        .map(|last| (&arm.links[last], &base));
+    let last = virtual_joints.checked_sub(1);
+    let base = last.map(|last| (&arm.links[last], &base));
     let links = arm.links.iter().skip(virtual_joints).zip(frames);
     let bodies = base.into_iter().chain(links).map(body);
     bodies.filter(|body| body.mass > 0.0).collect()

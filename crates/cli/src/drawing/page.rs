@@ -104,18 +104,14 @@ impl View {
             let low = values().fold(f64::INFINITY, f64::min);
             [low, values().fold(f64::NEG_INFINITY, f64::max)]
         });
-        let reach = ranges
-            .iter()
-            .map(|[low, high]| high - low)
-            .fold(0.0, f64::max);
+        let lengths = ranges.iter().map(|[low, high]| high - low);
+        let reach = lengths.fold(0.0, f64::max);
         // An arm without lengths still has axes to draw.
         let has_lengths = reach > 0.0 && reach.is_finite();
         let reach = if has_lengths { reach } else { 1.0 };
         let middle = |k: usize| 0.5 * (ranges[k][0] + ranges[k][1]);
-        let offsets = outlines
-            .iter()
-            .flat_map(|corner| [0, 1, 2].map(|k| (corner[k] - middle(k)).abs()));
-        let furthest = offsets.fold(0.0, f64::max);
+        let offsets = |corner: &Vector<f64>| [0, 1, 2].map(|k| (corner[k] - middle(k)).abs());
+        let furthest = outlines.iter().flat_map(offsets).fold(0.0, f64::max);
         let scale = SIDE * (1.0 - 2.0 * MARGIN) / reach;
         let view = |name, coordinates: [usize; 2], left: f64| View {
             name,

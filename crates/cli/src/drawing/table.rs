@@ -16,18 +16,15 @@ pub(crate) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
         Convention::Standard => "standard DH",
         Convention::Modified => "modified DH (Craig)",
     };
-    let gravity = robot.gravity.each_ref().map(number).join(", ");
-    let at = q
-        .iter()
-        .map(|&q| short(Some(q.to_string()), 7, q))
-        .collect::<Vec<String>>()
-        .join(", ");
+    let gravity = list(&robot.gravity);
+    let values = q.iter().map(|&q| short(Some(q.to_string()), 7, q));
+    let at = Vec::from_iter(values).join(", ");
     let axes = match robot.floating {
         Some(_) => " of the world",
         None => "",
     };
     let mut lines = vec![
-        format!("{convention}, gravity{axes} ({gravity}) m/s², lengths in m, masses in kg"),
+        format!("{convention}, gravity{axes} {gravity} m/s², lengths in m, masses in kg"),
         format!("drawn at q = ({at})"),
     ];
     for (what, end) in robot.placements() {
@@ -54,11 +51,13 @@ pub(crate) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     };
     let base = robot.floating.as_ref();
     lines.extend(base.and_then(|base| defect("the base", &base.inertia, &base.mass)));
-    lines.extend(
-        robot.joints.iter().enumerate().filter_map(|(i, joint)| {
-            defect(&format!("joint {}", i + 1), &joint.inertia, &joint.mass)
-        }),
-    );
+    for (label, joint) in (1..).zip(&robot.joints) {
+        lines.extend(defect(
+            &format!("joint {label}"),
+            &joint.inertia,
+            &joint.mass,
+        ));
+    }
     lines
 }
 
@@ -83,13 +82,12 @@ fn row(index: usize, joint: &Joint) -> [String; 7] {
         number(&joint.a),
         twist,
         number(&joint.mass),
-        format!("({})", joint.com.each_ref().map(number).join(", ")),
+        list(&joint.com),
     ]
 }
 
 fn floating(base: &FloatingBase) -> [String; 7] {
     let name = base.name.as_deref().unwrap_or("base");
-    let com = base.com.each_ref().map(number).join(", ");
     let [xyz, rpy, axis] = [""; 3].map(str::to_owned);
     [
         name.to_owned(),
@@ -98,22 +96,20 @@ fn floating(base: &FloatingBase) -> [String; 7] {
         rpy,
         axis,
         number(&base.mass),
-        format!("({com})"),
+        list(&base.com),
     ]
 }
 
 fn placed(robot: &Robot, index: usize, place: &Placed) -> [String; 7] {
     let joint = &robot.joints[index];
     let name = joint.name.as_deref().unwrap_or_default();
-    let carrier = robot
-        .carrier(robot.row_of(index))
-        .map(|row| robot.rows()[row].name.clone());
-    let list = |numbers: &[Rational; 3]| format!("({})", numbers.each_ref().map(number).join(", "));
+    let row = robot.carrier(robot.row_of(index));
+    let carrier = row.map(|row| robot.rows()[row].name.clone());
     [
         format!("{} {name}", index + 1).trim_end().to_owned(),
         carrier.map_or_else(|| "base".to_owned(), Option::unwrap_or_default),
         list(&place.placement.xyz),
-        format!("({})", place.placement.rpy.each_ref().map(angle).join(", ")),
+        angles(&place.placement.rpy),
         list(&place.axis),
         number(&joint.mass),
         list(&joint.com),
@@ -121,9 +117,16 @@ fn placed(robot: &Robot, index: usize, place: &Placed) -> [String; 7] {
 }
 
 fn placement(what: &str, placement: &Placement) -> String {
-    let xyz = placement.xyz.each_ref().map(number).join(", ");
-    let rpy = placement.rpy.each_ref().map(angle).join(", ");
-    format!("{what}: xyz ({xyz}), rpy ({rpy})")
+    let (xyz, rpy) = (list(&placement.xyz), angles(&placement.rpy));
+    format!("{what}: xyz {xyz}, rpy {rpy}")
+}
+
+fn list(numbers: &[Rational; 3]) -> String {
+    format!("({})", numbers.each_ref().map(number).join(", "))
+}
+
+fn angles(angles: &[Angle; 3]) -> String {
+    format!("({})", angles.each_ref().map(angle).join(", "))
 }
 
 fn number(value: &Rational) -> String {

@@ -251,10 +251,8 @@ fn scale_mass(joint: &mut Joint, factor: &Rational) {
 
 fn scale_length(joint: &mut Joint, factor: &Rational) {
     let lengths = [&mut joint.a, &mut joint.d].into_iter();
-    let placed = joint
-        .place
-        .iter_mut()
-        .flat_map(|place| &mut place.placement.xyz);
+    let places = joint.place.iter_mut();
+    let placed = places.flat_map(|place| &mut place.placement.xyz);
     let lengths = lengths.chain(placed).chain(&mut joint.com);
     lengths.for_each(|x| *x *= factor);
     joint.inertia = joint.inertia.map(|entry| entry * factor * factor);

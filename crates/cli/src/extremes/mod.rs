@@ -249,10 +249,8 @@ pub fn nearest_to_singular(bench: &Bench) -> (f64, Vec<f64>) {
         let within = |[low, high]: &[f64; 2]| low + (high - low) * random.unit();
         bounds.iter().map(within).collect()
     };
-    let mut drawn: Vec<(f64, Vec<f64>)> = (0..1000)
-        .map(|_| draw())
-        .map(|q| (condition(&q), q))
-        .collect();
+    let pairs = (0..1000).map(|_| draw()).map(|q| (condition(&q), q));
+    let mut drawn: Vec<(f64, Vec<f64>)> = pairs.collect();
     drawn.sort_by(|(a, _), (b, _)| b.total_cmp(a));
     drawn.truncate(8);
     for (best, q) in &mut drawn {

@@ -9,8 +9,9 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use dalembert_codegen::workspace::claim;
-use dalembert_codegen::{Asked, Diagnostic, Language, RobotFile, ask};
+use dalembert_codegen::{Asked, Diagnostics, Language, RobotFile, ask};
 use dalembert_import::{ChainArgs, Options, Text, read_robot};
+use dalembert_model::diagnostic::Place;
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Robot, suggested_name};
 use dalembert_stamp::{Comment, relative, sealed};
@@ -86,14 +87,15 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
 }
 
 fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
-    let asked = texts::ASKED
-        .parse::<Asked>()
-        .map_err(|error| Failure::Input(error.to_string()))?;
+    let parsed = texts::ASKED.parse::<Asked>();
+    let asked = parsed.map_err(|error| Failure::Input(error.to_string()))?;
     let name = &file.robot.name;
     let made = ask(file, &asked, Language::Rust, name).map_err(|problems| {
-        let why = |problem: &Diagnostic| format!("error: {}", problem.message);
-        let messages: Vec<String> = problems.0.iter().map(why).collect();
-        Failure::Input(messages.join("\n\n"))
+        // The options are this program's: no message names them.
+        let problems = problems.0.into_iter();
+        let plain = problems.map(|problem| problem.at(Place::None));
+        let text = Diagnostics(plain.collect()).render();
+        Failure::Input(text.trim_end().to_owned())
     })?;
     let (request, generated) = (&made.request, &made.generated);
     let files = generated.files(request, &format!("{name}.toml"), &file.source);
@@ -116,9 +118,8 @@ pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
         let q = DVector::from_fn(n, |k, _| value(k, 1.5));
         let qd = DVector::from_fn(n, |k, _| value(k + 1, 2.0));
         let qdd = DVector::from_fn(n, |k, _| value(k + 2, 5.0));
-        let tau = runtime
-            .inverse_dynamics(&q, &qd, &qdd)
-            .map_err(Failure::input)?;
+        let torques = runtime.inverse_dynamics(&q, &qd, &qdd);
+        let tau = torques.map_err(Failure::input)?;
         Ok([q, qd, qdd, tau].map(|vector| vector.as_slice().to_vec()))
     };
     let states: Result<Vec<texts::State>, Failure> = (1..=texts::STATES).map(state).collect();

@@ -45,13 +45,11 @@ pub(super) fn manifest(name: &str, dependency: &str) -> String {
 pub(super) const STATES: usize = 3;
 
 pub(super) fn expected(states: &[State]) -> String {
-    let rows: String = states
-        .iter()
-        .map(|vectors| {
-            let line = |vector: &Vec<f64>| format!("        {vector:?},\n");
-            format!("    [\n{}    ],\n", vectors.each_ref().map(line).concat())
-        })
-        .collect();
+    let row = |vectors: &State| {
+        let line = |vector: &Vec<f64>| format!("        {vector:?},\n");
+        format!("    [\n{}    ],\n", vectors.each_ref().map(line).concat())
+    };
+    let rows: String = states.iter().map(row).collect();
     format!(
         "// q, its rates and accelerations, and the torques there by a recursion that serves any arm.\n[\n{rows}]\n"
     )

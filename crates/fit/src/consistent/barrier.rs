@@ -100,7 +100,9 @@ impl Barrier {
         let mut rows = Vec::with_capacity(self.count);
         for (i, (_, file)) in self.links.iter().enumerate() {
             let l = cholesky(&self.pseudo(theta, i))?;
-            let columns: [Pseudo; 10] = self.units.map(|unit| within(&l, &unit));
+            // L⁻¹ E L⁻ᵀ
+            let half = self.units.map(|unit| transposed(&solve(&l, &unit)));
+            let columns = half.map(|half| solve(&l, &half));
             let quotient = solve(file, &l);
             for row in 0..4 {
                 for column in 0..=row {
@@ -144,12 +146,6 @@ impl Barrier {
         }
         sum
     }
-}
-
-/// Computes L⁻¹ E L⁻ᵀ.
-fn within(l: &Pseudo, e: &Pseudo) -> Pseudo {
-    let half = solve(l, e);
-    solve(l, &transposed(&half))
 }
 
 fn solve(l: &Pseudo, b: &Pseudo) -> Pseudo {

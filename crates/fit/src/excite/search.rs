@@ -24,9 +24,8 @@ impl Search<'_> {
     pub(super) fn draw(&self, period: f64, harmonics: usize, random: &mut Random) -> Trajectory {
         let limits = self.model.limits();
         let mut series = |of: &Limits| -> Vec<f64> {
-            (0..harmonics)
-                .map(|_| within(random, of.velocity))
-                .collect()
+            let draws = (0..harmonics).map(|_| within(random, of.velocity));
+            draws.collect()
         };
         let middle = limits.iter().map(|of| of.middle() + 0.1 * of.reach());
         let drawn = Trajectory {
@@ -106,7 +105,7 @@ impl Search<'_> {
     }
 
     /// The derivatives stand in the places of the middles, a and b.
-    pub(super) fn gradient(&self, trajectory: &Trajectory) -> Result<Trajectory, Error> {
+    fn gradient(&self, trajectory: &Trajectory) -> Result<Trajectory, Error> {
         let n = self.model.joints();
         let g = self.metric(trajectory)?;
         let harmonics = trajectory.cosines.first().map_or(0, Vec::len);
@@ -165,12 +164,7 @@ impl Search<'_> {
 
     /// Lengths are in parts of the limits. The way back to them scales a joint's whole motion x by
     /// its bound b: F changes by g − (g·x) ∇b/b and not by g.
-    pub(super) fn moved(
-        &self,
-        from: &Trajectory,
-        gradient: &Trajectory,
-        length: f64,
-    ) -> Trajectory {
+    fn moved(&self, from: &Trajectory, gradient: &Trajectory, length: f64) -> Trajectory {
         let limits = self.model.limits();
         let used = from.used(limits);
         let mut steps: Vec<Vec<f64>> = Vec::with_capacity(limits.len());
@@ -180,10 +174,9 @@ impl Search<'_> {
             let mut direction = coordinates(gradient, i, 0.0);
             let (bound, slope) = &used[i];
             let along = crate::dense::dot(&direction, &place) / bound;
-            direction
-                .iter_mut()
-                .zip(slope)
-                .for_each(|(g, b)| *g -= along * b);
+            for (g, b) in direction.iter_mut().zip(slope) {
+                *g -= along * b;
+            }
             for (k, coordinate) in direction.iter_mut().enumerate() {
                 let unit = if k == 0 { of.reach() } else { of.velocity };
                 square += (*coordinate * unit).powi(2);

@@ -32,17 +32,14 @@ impl Model {
         let r = triangle.reduced();
         let norms = norms(&r, width);
         let independent = |column: usize| r[column * width + column] > 1e-9 * norms[column];
-        let kept: Vec<usize> = (0..width)
-            .filter(|k| !matches!(self.columns[*k], Column::Offset(_)) || independent(*k))
-            .collect();
+        let mut kept: Vec<usize> = (0..width).collect();
+        kept.retain(|k| !matches!(self.columns[*k], Column::Offset(_)) || independent(*k));
         self.columns = kept.iter().map(|k| self.columns[*k]).collect();
         let scale = |k: usize| (0..n).fold(0.0f64, |max, i| max.max(largest[i * width + k]));
         for (i, row) in self.rows.iter_mut().enumerate() {
             // What is nothing but rounding next to the column's largest entry is zero.
-            let felt = kept
-                .iter()
-                .enumerate()
-                .filter(|(_, k)| largest[i * width + **k] > 1e-12 * scale(**k));
+            let columns = kept.iter().enumerate();
+            let felt = columns.filter(|(_, k)| largest[i * width + **k] > 1e-12 * scale(**k));
             *row = felt.map(|(new, _)| new).collect();
         }
     }

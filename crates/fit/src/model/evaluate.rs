@@ -17,12 +17,10 @@ impl Model {
     /// # Errors
     /// [`Error::Length`] and [`Error::Value`].
     pub fn regressor(&self, q: &[f64], qd: &[f64], qdd: &[f64]) -> Result<Vec<f64>, Error> {
-        for ((name, values), length) in [("q", q), ("qd", qd), ("qdd", qdd)]
-            .into_iter()
-            .zip(self.lengths())
-        {
-            check(name, values, length)?;
-        }
+        let lengths = self.lengths();
+        check("q", q, lengths[0])?;
+        check("qd", qd, lengths[1])?;
+        check("qdd", qdd, lengths[2])?;
         let (n, base) = (self.coordinates(), self.robot.base_coordinates());
         let position: Vec<_> = (self.robot.joints.iter().zip(q))
             .map(|(joint, q)| match joint.kind {

@@ -78,7 +78,7 @@ pub fn control(
     for collision in &controlled.collisions {
         check("collisions", &collision.torque, n)?;
     }
-    let Some((_, mut arm)) = arms.first().map(|(from, arm)| (from, arm)) else {
+    let Some((_, first)) = arms.first() else {
         return Err(Error::Option("an arm is needed from the beginning"));
     };
     let model = Reference::<f64>::from_robot(&controlled.controller);
@@ -91,7 +91,7 @@ pub fn control(
     for k in 0..recording.states {
         let time = k as f64 * recording.period;
         let now = arms.iter().rev().find(|(from, _)| *from <= time);
-        arm = now.map_or(arm, |(_, arm)| arm);
+        let arm = now.map_or(first, |(_, arm)| arm);
         let [wanted, rates, accelerations] = trajectory.at(time).map(DVector::from_vec);
         let corrected =
             accelerations + (rates - &qd) * (2.0 * omega) + (wanted - &q) * omega.powi(2);

@@ -2,7 +2,7 @@
 
 use dalembert_fit::random::{Random, normal, within};
 use dalembert_fit::simulate::Log;
-use dalembert_fit::{Accumulator, Differentiator, Effort, Model, differentiate};
+use dalembert_fit::{Accumulator, Differentiator, Effort, Fit, Model, differentiate, fit};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::read::parse;
@@ -145,6 +145,14 @@ pub fn differentiated(filter: &Differentiator, log: &Log) -> Vec<[Vec<f64>; 3]> 
         [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect())
     };
     (0..joints[0][0].len()).map(state).collect()
+}
+
+/// Returns the data of so many states with noise of a seed, and their fit.
+pub fn fitted(model: &Model, right: &[f64], count: usize, seeds: [u64; 2]) -> (Accumulator, Fit) {
+    let states = states(model, count, seeds[0]);
+    let data = accumulated(model, &states, right, Some(seeds[1]));
+    let fit = fit(model, &data).unwrap();
+    (data, fit)
 }
 
 pub fn accumulated(

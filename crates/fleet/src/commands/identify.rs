@@ -38,9 +38,8 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<Report, Er
     }
     let mut job = Job::new(&args.logs, true, going).await?;
     let progress = job.progress.clone();
-    let aggregates = progress
-        .shown(args.logs.progress, job.aggregates("_fit"))
-        .await?;
+    let computation = job.aggregates("_fit");
+    let aggregates = progress.shown(args.logs.progress, computation).await?;
     let robot = job.robot.clone();
     let logs = job.logs.clone();
     let is_written = args.output.is_some();
@@ -92,10 +91,8 @@ fn solve(
     let mut rows = Vec::new();
     let mut add = |log: &Log, file: &Accumulator, [before, after]: [&[f64]; 2]| {
         let name = log.name.display().to_string();
-        let left = written
-            .as_ref()
-            .map(|parameters| file.residual(model, parameters))
-            .transpose()?;
+        let residual = |parameters: &Vec<f64>| file.residual(model, parameters);
+        let left = written.as_ref().map(residual).transpose()?;
         for (i, (before, after)) in before.iter().zip(after).enumerate() {
             let [before, after] = [*before, *after].map(number);
             let left = left.as_ref().map_or(String::new(), |left| number(left[i]));
@@ -133,21 +130,15 @@ fn judged(model: &Model, total: &Accumulator, fit: &Fit, bodies: &Bodies) -> Res
     let written = total.residual(model, &bodies.file_parameters(model))?;
     let with_offsets = total.residual(model, &bodies.parameters)?;
     for (i, left) in written.iter().enumerate() {
-        let (before, after) = (fit.before[i], fit.after[i]);
-        let is_worse = *left > WORSE * before;
-        if !is_worse && *left <= BADLY * after {
+        let is_worse = *left > WORSE * fit.before[i];
+        if !is_worse && *left <= BADLY * fit.after[i] {
             continue;
         }
-        let (joint, residual) = (i + 1, number(*left));
+        let [before, after, residual] = [fit.before[i], fit.after[i], *left].map(number);
+        let leaves = format!("joint {}: the written file leaves {residual}", i + 1);
         text += &match is_worse {
-            true => format!(
-                "warning: joint {joint}: the written file leaves {residual}, more than the {} before: ",
-                number(before)
-            ),
-            false => format!(
-                "joint {joint}: the written file leaves {residual}, the free parameters {}: ",
-                number(after)
-            ),
+            true => format!("warning: {leaves}, more than the {before} before: "),
+            false => format!("{leaves}, the free parameters {after}: "),
         };
         text += &match BADLY * with_offsets[i] < *left {
             true => format!(

@@ -48,8 +48,7 @@ enum WatchFor {
 }
 
 pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Error> {
-    let outputs = [&args.output, &args.svg];
-    for output in outputs.into_iter().flatten() {
+    for output in [&args.output, &args.svg].into_iter().flatten() {
         // Before anything is computed for it.
         Unfinished::beside(output)?;
     }
@@ -85,13 +84,9 @@ async fn computed(args: &ResidualArgs, job: &mut Job) -> Result<String, Error> {
 
 async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
     let mut checked = Vec::new();
-    let results = job
-        .aggregates("_residuals")
-        .await?
-        .iter()
-        .map(|bytes| Residuals::from_bytes(bytes))
-        .collect::<Result<Vec<_>, _>>()?;
-    for (log, residuals) in job.logs.iter().zip(results) {
+    let aggregates = job.aggregates("_residuals").await?;
+    for (log, bytes) in job.logs.iter().zip(&aggregates) {
+        let residuals = Residuals::from_bytes(bytes)?;
         checked.push(match residuals.not_finite() {
             0 => Ok(residuals),
             count => {
@@ -139,9 +134,8 @@ async fn watched(
     let n = job.robot.joints();
     // Half of the residuals are below it, whatever a contact does to the others.
     let noise = |residuals: &Residuals| -> Vec<f64> {
-        let half = (0..n).map(|i| residuals.quantile(i, 0.5));
-        half.map(|half| (half / 0.6745).max(f64::MIN_POSITIVE))
-            .collect()
+        let noise = |i| (residuals.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE);
+        (0..n).map(noise).collect()
     };
     let (noises, bar): (Vec<Vec<f64>>, f64) = match &args.quiet {
         None => (log_residuals.iter().map(noise).collect(), args.bar),
@@ -155,13 +149,10 @@ async fn watched(
             let quiet_residuals = summaries(&mut quiet).await?;
             let noise = noise(&quiet_residuals[0]);
             let (robot, quiet_noise) = (job.robot.clone(), noise.clone());
-            let level = quiet
-                .each(move |_, log, going| {
-                    Ok(contacts(robot.as_ref(), log, &quiet_noise, f64::MAX / 4.0, going)?.1)
-                })
-                .await?
-                .into_iter()
-                .fold(0.0, f64::max);
+            let levels = quiet.each(move |_, log, going| {
+                Ok(contacts(robot.as_ref(), log, &quiet_noise, f64::MAX / 4.0, going)?.1)
+            });
+            let level = levels.await?.into_iter().fold(0.0, f64::max);
             (vec![noise; job.logs.len()], 2.0 * level)
         }
     };
@@ -194,9 +185,9 @@ async fn drawn(
     let n = job.robot.joints();
     // Joints have torques of other sizes: each counts by its own over all logs.
     let mut total = Residuals::new(n);
-    log_residuals
-        .iter()
-        .for_each(|residuals| total.merge(residuals));
+    for residuals in log_residuals {
+        total.merge(residuals);
+    }
     let size = |residuals: &Residuals| {
         let parts = (0..n).map(|i| residuals.rms(i) / total.rms(i).max(f64::MIN_POSITIVE));
         parts.fold(0.0, f64::max)
@@ -205,19 +196,18 @@ async fn drawn(
     order.sort_by(|a, b| size(&log_residuals[*b]).total_cmp(&size(&log_residuals[*a])));
     order.truncate(args.worst);
     let (robot, chosen) = (job.robot.clone(), order.clone());
-    let curves = job
-        .each(move |place, log, going| {
-            if !chosen.contains(&place) {
-                return Ok(None);
-            }
-            let mut curves = Curves::new(&log.name.display().to_string(), n, log.rows);
-            walk(robot.as_ref(), log, going, |block, residuals| {
-                curves.add(&block.time, residuals);
-                Ok(())
-            })?;
-            Ok(Some(curves))
-        })
-        .await?;
+    let drawings = job.each(move |place, log, going| {
+        if !chosen.contains(&place) {
+            return Ok(None);
+        }
+        let mut curves = Curves::new(&log.name.display().to_string(), n, log.rows);
+        walk(robot.as_ref(), log, going, |block, residuals| {
+            curves.add(&block.time, residuals);
+            Ok(())
+        })?;
+        Ok(Some(curves))
+    });
+    let curves = drawings.await?;
     let worst: Vec<&Curves> = order.iter().flat_map(|place| &curves[*place]).collect();
     Ok(picture(&worst))
 }

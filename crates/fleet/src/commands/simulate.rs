@@ -137,21 +137,14 @@ impl Scene {
         };
         let (trajectory, _) = excite(&model, &vec![1.0; n], 8.0, &effort)?;
         let (count, period) = (800, 0.01);
-        let mut states = [(); 3].map(|()| vec![0.0; n * count]);
-        for s in 0..count {
-            fill(&mut states, s, count, &trajectory.at(s as f64 * period));
-        }
-        let [q, qd, qdd] = &states;
-        let mut tau = vec![0.0; n * count];
-        loaded.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+        let states = Vec::from_iter((0..count).map(|s| trajectory.at(s as f64 * period)));
+        let [.., tau] = computed(&loaded, states.iter())?;
         // A joint that holds nothing has some noise all the same.
-        let usual: Vec<f64> = tau
-            .chunks_exact(count)
-            .map(|torques| {
-                let squares: f64 = torques.iter().map(|x| x * x).sum();
-                libm::sqrt(squares / count as f64).max(1e-3)
-            })
-            .collect();
+        let torque = |torques: &[f64]| {
+            let squares: f64 = torques.iter().map(|x| x * x).sum();
+            libm::sqrt(squares / count as f64).max(1e-3)
+        };
+        let usual: Vec<f64> = tau.chunks_exact(count).map(torque).collect();
         let (mut truth, mut exact) = (robot.clone(), loaded.clone());
         if args.vary > 0.0 {
             truth = varied(robot, args.vary, &usual, &mut Random::new(args.seed))?;
@@ -220,9 +213,10 @@ impl Scene {
         let mut random = Random::new(recording.seed ^ 0x636f_6e74);
         let collisions = self.collisions(&mut random);
         let n = self.noise.len();
-        let mut names = canonical_names(n);
+        let (mut names, mut chosen) = (canonical_names(n), &[0, 1, 2, 3][..]);
         if self.args.encoders_only {
             names.retain(|name| !name.starts_with("qd"));
+            chosen = &[0, 3];
         }
         let compression = match self.args.zstd {
             true => Compression::ZSTD(ZstdLevel::default()),
@@ -245,11 +239,7 @@ impl Scene {
                 }),
                 None => self.followed(&recording, &collisions, first, &time, &mut random)?,
             };
-            let chosen = columns
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
-            table.write("", &time, chosen.map(|(_, of)| &of[..]))?;
+            table.write("", &time, chosen.iter().map(|k: &usize| &columns[*k][..]))?;
             progress.add((last - first) as u64);
         }
         table.close()?;
@@ -295,16 +285,9 @@ impl Scene {
         random: &mut Random,
     ) -> Result<[Vec<f64>; 4], Error> {
         let (n, count) = (self.noise.len(), time.len());
-        let mut states = [(); 3].map(|()| vec![0.0; n * count]);
-        for s in 0..count {
-            // A period of it is all that there is; only noise goes on.
-            let state = &self.cycle[(first + s) % self.cycle.len()];
-            fill(&mut states, s, count, state);
-        }
-        let [q, qd, qdd] = &states;
-        let mut tau = vec![0.0; n * count];
-        self.exact
-            .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+        // A period of it is all that there is; only noise goes on.
+        let states = (first..first + count).map(|s| &self.cycle[s % self.cycle.len()]);
+        let [q, qd, qdd, mut tau] = computed(&self.exact, states)?;
         for (s, time) in time.iter().enumerate() {
             for i in 0..n {
                 let torque = &mut tau[i * count + s];
@@ -314,19 +297,29 @@ impl Scene {
                 }
             }
         }
-        let [q, qd, qdd] = states;
         Ok([recording.read(&q), qd, qdd, tau])
     }
 }
 
 const BLOCK: usize = 8192;
 
-fn fill(states: &mut [Vec<f64>; 3], s: usize, count: usize, state: &[Vec<f64>; 3]) {
-    for (to, from) in states.iter_mut().zip(state) {
-        for (i, value) in from.iter().enumerate() {
-            to[i * count + s] = *value;
+/// Returns states in columns, with the robot's torques.
+fn computed<'a>(
+    robot: &Loaded,
+    states: impl ExactSizeIterator<Item = &'a [Vec<f64>; 3]>,
+) -> Result<[Vec<f64>; 4], Error> {
+    let count = states.len();
+    let mut columns = [(); 4].map(|()| vec![0.0; robot.joints() * count]);
+    for (s, state) in states.enumerate() {
+        for (to, from) in columns.iter_mut().zip(state) {
+            for (i, value) in from.iter().enumerate() {
+                to[i * count + s] = *value;
+            }
         }
     }
+    let [q, qd, qdd, tau] = &mut columns;
+    robot.inverse_dynamics(States { count, q, qd, qdd }, tau)?;
+    Ok(columns)
 }
 
 fn rational(value: f64) -> Result<Rational, Error> {

@@ -82,7 +82,6 @@ impl Joint {
 }
 
 impl Residuals {
-    /// Returns the sums over no states.
     pub fn new(joints: usize) -> Residuals {
         Residuals {
             states: 0,
@@ -102,7 +101,6 @@ impl Residuals {
         self.not_finite
     }
 
-    /// Returns the sums of each joint.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
     }
@@ -146,17 +144,12 @@ impl Residuals {
             return Err(Error::new("residuals of another version"));
         }
         let joints = reader.count()?;
-        let mut read = Residuals {
-            states: reader.count()?,
-            not_finite: reader.count()?,
-            joints: Vec::new(),
-            piece: Vec::new(),
-        };
+        let mut read = Residuals::new(0);
+        (read.states, read.not_finite) = (reader.count()?, reader.count()?);
         for _ in 0..joints {
             let mut joint = Joint::new();
             joint.squares = Sum::read(&mut reader)?;
-            joint.worst = reader.float()?;
-            joint.time = reader.float()?;
+            (joint.worst, joint.time) = (reader.float()?, reader.float()?);
             for _ in 0..reader.count()? {
                 let (bin, count) = (reader.count()? as usize, reader.count()?);
                 let place = joint.bins.get_mut(bin);
@@ -212,11 +205,8 @@ impl Kept for Residuals {
             for number in [value, rest, joint.worst, joint.time] {
                 put(number.to_bits());
             }
-            let filled = joint
-                .bins
-                .iter()
-                .enumerate()
-                .filter(|(_, count)| **count > 0);
+            let bins = joint.bins.iter().enumerate();
+            let filled = bins.filter(|(_, count)| **count > 0);
             put(filled.clone().count() as u64);
             for (bin, count) in filled {
                 put(bin as u64);

@@ -31,31 +31,24 @@ pub struct Block {
 }
 
 impl Block {
-    /// Returns the number of states.
     pub fn len(&self) -> usize {
         self.time.len()
     }
 
-    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
     }
 
-    /// Returns true if there are values of a quantity.
     pub fn has(&self, quantity: usize) -> bool {
         !self.quantities[quantity].is_empty()
     }
 
-    /// Returns a joint's values of a quantity.
     pub fn column(&self, quantity: usize, joint: usize) -> &[f64] {
         let count = self.len();
         &self.quantities[quantity][joint * count..(joint + 1) * count]
     }
 
-    /// Checks that all values are finite.
-    ///
-    /// # Errors
-    /// The row of the first one that is not, and what it is.
+    /// Checks that all values are finite; the error names the row of the first that is not.
     pub fn check(&self) -> Result<(), Error> {
         let first = |column: &[f64]| column.iter().position(|x| !x.is_finite());
         let mut defects = Vec::new();
@@ -103,7 +96,6 @@ pub(crate) fn projection(builder: &Builder<File>, names: &[&str]) -> ProjectionM
 }
 
 impl<'a> Blocks<'a> {
-    /// Opens a file.
     pub fn open(path: &Path, columns: &'a Columns) -> Result<Blocks<'a>, Error> {
         let builder = open(path)?;
         let layout = columns.layout(builder.schema())?;
@@ -183,11 +175,9 @@ impl Iterator for Blocks<'_> {
 
     fn next(&mut self) -> Option<Result<Block, Error>> {
         let after = self.row;
-        let batch = match self.reader.next()? {
-            Ok(batch) => batch,
-            Err(why) => return Some(Err(Error::new(why).at(format!("after row {after}")))),
-        };
-        Some(self.block(&batch))
+        let batch = self.reader.next()?;
+        let batch = batch.map_err(|why| Error::new(why).at(format!("after row {after}")));
+        Some(batch.and_then(|batch| self.block(&batch)))
     }
 }
 

@@ -19,7 +19,6 @@ pub struct Log {
     pub name: PathBuf,
     /// The file to read: another one if it was converted.
     pub path: PathBuf,
-    /// Number of rows.
     pub rows: u64,
     /// The columns of the quantities in it.
     pub layout: Layout,
@@ -48,27 +47,23 @@ impl Log {
         let Origin { nulls, ends, rates } = &self.origin;
         // What no conversion has left out, queries have.
         let nulls = nulls + self.rows.saturating_sub(states);
-        let rows = |count: u64, cause: &str| match count {
-            0 => String::new(),
-            count => format!("{count} rows left out: {cause}"),
-        };
+        let rows = |count: u64, cause: &str| format!("{count} rows left out: {cause}");
         let facts = [
-            rows(nulls, "a value is null"),
-            rows(*ends, "at the ends there are no derivatives"),
-            rates.clone(),
+            (nulls > 0).then(|| rows(nulls, "a value is null")),
+            (*ends > 0).then(|| rows(*ends, "at the ends there are no derivatives")),
+            (!rates.is_empty()).then(|| rates.clone()),
         ];
-        let told = facts.iter().filter(|fact| !fact.is_empty());
-        let line = |fact: &String| format!("{}: {fact}\n", self.name.display());
-        told.map(line).collect()
+        let line = |fact: String| format!("{}: {fact}\n", self.name.display());
+        facts.into_iter().flatten().map(line).collect()
     }
 
     /// Returns true if no query can read it as it is: a recording of ROS 2, whose layout is empty,
     /// a log without rates, or lists in other units or of varying lengths.
     pub fn converts(&self) -> bool {
-        let mut sources = self.layout.iter().enumerate();
-        sources.any(|(quantity, source)| match source {
+        let mut sources = self.layout.iter().zip(&self.columns.factors);
+        sources.any(|(source, factors)| match source {
             None | Some(Source::Ragged(_)) => true,
-            Some(Source::List(_)) => !self.columns.is_plain(quantity),
+            Some(Source::List(_)) => factors.iter().any(|factor| *factor != 1.0),
             Some(Source::Columns(_)) => false,
         })
     }

@@ -88,7 +88,6 @@ pub enum Source {
 }
 
 impl Source {
-    /// Returns the columns.
     pub fn columns(&self) -> &[String] {
         match self {
             Source::Columns(columns) => columns,
@@ -135,11 +134,8 @@ impl Mapping {
             _ => 1.0,
         };
         let angles: Vec<f64> = robot.joints.iter().map(|joint| angle(joint.kind)).collect();
-        let constants = self
-            .torque_constants
-            .clone()
-            .or(file.torque_constants)
-            .unwrap_or_else(|| vec![1.0; n]);
+        let constants = self.torque_constants.clone().or(file.torque_constants);
+        let constants = constants.unwrap_or_else(|| vec![1.0; n]);
         length("torque constants", constants.len(), n)?;
         if constants.iter().any(|x| !x.is_finite() || *x == 0.0) {
             let why = "torque constants have to be finite and not zero";
@@ -205,10 +201,6 @@ impl Columns {
         }
     }
 
-    pub(crate) fn is_plain(&self, quantity: usize) -> bool {
-        self.factors[quantity].iter().all(|factor| *factor == 1.0)
-    }
-
     fn names(&self, quantity: usize) -> Vec<String> {
         let pattern = &self.patterns[quantity];
         let trimmed = |name: &str| name.trim().to_owned();
@@ -227,11 +219,8 @@ impl Columns {
         if !kind.is_numeric() && !matches!(kind, DataType::Timestamp(..)) {
             return Err(unexpected(time, "a number or a timestamp"));
         }
-        let mut layout = [const { None }; 4];
-        for (quantity, source) in layout.iter_mut().enumerate() {
-            *source = self.source(quantity, schema)?;
-        }
-        Ok(layout)
+        let source = |quantity| self.source(quantity, schema);
+        Ok([source(0)?, source(1)?, source(2)?, source(3)?])
     }
 
     fn source(&self, quantity: usize, schema: &Schema) -> Result<Option<Source>, Error> {
@@ -278,8 +267,8 @@ impl Columns {
             )));
         }
         for name in &names {
-            let field =
-                field_of(name).ok_or_else(|| missing(name, QUANTITIES[quantity], schema))?;
+            let lost = || missing(name, QUANTITIES[quantity], schema);
+            let field = field_of(name).ok_or_else(lost)?;
             if !field.data_type().is_numeric() {
                 return Err(unexpected(field, "a number"));
             }
@@ -299,9 +288,8 @@ fn item(kind: &DataType) -> Option<&DataType> {
 
 fn unexpected(field: &Field, expected: &str) -> Error {
     let (name, kind) = (field.name(), field.data_type());
-    Error::new(format!(
-        "column `{name}` is {kind}: {expected} was expected"
-    ))
+    let why = format!("column `{name}` is {kind}: {expected} was expected");
+    Error::new(why)
 }
 
 fn missing(name: &str, quantity: &str, schema: &Schema) -> Error {

@@ -22,7 +22,6 @@ pub struct Messages<'a> {
 }
 
 impl<'a> Messages<'a> {
-    /// Opens a recording.
     pub fn open(path: &Path, columns: &'a Columns) -> Result<Messages<'a>, Error> {
         Ok(Messages {
             messages: MessageReader::new(BufReader::new(File::open(path)?)),
@@ -37,8 +36,7 @@ impl<'a> Messages<'a> {
         for message in self.messages.by_ref() {
             let message = message.map_err(Error::new)?;
             let channel = &message.channel;
-            let schema = channel.schema.as_ref();
-            let schema = schema.map_or("", |schema| schema.name.as_str());
+            let schema = channel.schema.as_ref().map_or("", |schema| &schema.name);
             if !SCHEMAS.contains(&schema) {
                 if self.columns.topic.as_deref() == Some(&channel.topic) {
                     return Err(Error::new(format!(
@@ -64,8 +62,8 @@ impl<'a> Messages<'a> {
                 return Err(Error::new(why));
             }
             self.row += 1;
-            let place = || format!("message {}", self.row);
-            let mut state = decode(&message.data).map_err(|why| why.at(place()))?;
+            let place = |why: Error| why.at(format!("message {}", self.row));
+            let mut state = decode(&message.data).map_err(place)?;
             if state.time == 0.0 {
                 state.time = message.log_time as f64 * 1e-9;
             }
@@ -130,8 +128,8 @@ impl Iterator for Messages<'_> {
         let block = self.block().transpose();
         self.ended |= !matches!(block, Some(Ok(_)));
         if block.is_none() && self.row == 0 {
-            let schema = SCHEMAS[0];
-            return Some(Err(Error::new(format!("there is no message of {schema}"))));
+            let why = format!("there is no message of {}", SCHEMAS[0]);
+            return Some(Err(Error::new(why)));
         }
         block
     }
@@ -160,14 +158,14 @@ impl JointState {
         let names = self.names.join(", ");
         if wanted.is_empty() || self.names.is_empty() {
             let count = self.joints();
-            return match count == columns.joints {
-                true => Ok((0..count).collect()),
-                false => Err(Error::new(format!(
-                    "it is of {count} joints ({names}), and the robot has {}: name the robot joints with \
-                     `--joint-names`",
-                    columns.joints
-                ))),
-            };
+            if count == columns.joints {
+                return Ok((0..count).collect());
+            }
+            return Err(Error::new(format!(
+                "it is of {count} joints ({names}), and the robot has {}: name the robot joints with \
+                 `--joint-names`",
+                columns.joints
+            )));
         }
         let is_lost = |name: &&String| !self.names.contains(name);
         let lost: Vec<&str> = wanted.iter().filter(is_lost).map(String::as_str).collect();

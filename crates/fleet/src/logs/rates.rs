@@ -88,9 +88,8 @@ impl Rates {
             let step = pair[1] - pair[0];
             if (step - period).abs() > JITTER * period {
                 let why = format!(
-                    "{step:.3e} s after the row before, and others {period:.3e} s: velocities \
-                     and accelerations cannot be differentiated over this; log them, or \
-                     resample"
+                    "{step:.3e} s after the row before, and others {period:.3e} s: velocities and \
+                     accelerations cannot be differentiated over this; log them, or resample"
                 );
                 return Err(Error::new(why).at_row(self.rows[place + 1]));
             }

@@ -15,7 +15,6 @@ use crate::error::Error;
 /// Rows that are compressed together, and that a reader holds: 25 MB of a six-joint arm.
 const GROUP: usize = 1 << 17;
 
-/// A table that is being written.
 pub struct Table {
     writer: ArrowWriter<File>,
     schema: Arc<Schema>,
@@ -35,7 +34,6 @@ impl Table {
         Table::compressed(path, names, file, Compression::SNAPPY)
     }
 
-    /// Creates a table as [`Table::create`] does, compressed in this way.
     pub fn compressed(
         path: &Path,
         names: &[String],
@@ -43,10 +41,8 @@ impl Table {
         compression: Compression,
     ) -> Result<Table, Error> {
         let first = file.then(|| Field::new("file", DataType::Utf8, false));
-        let numbers = names
-            .iter()
-            .map(|name| Field::new(name, DataType::Float64, false));
-        let fields: Vec<Field> = first.into_iter().chain(numbers).collect();
+        let number = |name| Field::new(name, DataType::Float64, false);
+        let fields: Vec<Field> = first.into_iter().chain(names.iter().map(number)).collect();
         let schema = Arc::new(Schema::new(fields));
         // Numbers of a log do not repeat, names of files do.
         let properties = WriterProperties::builder()
@@ -77,21 +73,18 @@ impl Table {
             let names = std::iter::repeat_n(file, rows);
             arrays.push(Arc::new(StringArray::from_iter_values(names)));
         }
-        let columns = quantities
-            .into_iter()
-            .flat_map(|of| of.chunks_exact(rows.max(1)));
+        let quantities = quantities.into_iter();
+        let columns = quantities.flat_map(|of| of.chunks_exact(rows.max(1)));
         for column in std::iter::once(time).chain(columns) {
             arrays.push(Arc::new(Float64Array::from(column.to_vec())));
         }
-        self.writer
-            .write(&RecordBatch::try_new(self.schema.clone(), arrays)?)?;
-        Ok(())
+        let batch = RecordBatch::try_new(self.schema.clone(), arrays)?;
+        Ok(self.writer.write(&batch)?)
     }
 
     /// Writes what stands at the end of the file.
     pub fn close(self) -> Result<(), Error> {
         let mut file = self.writer.into_inner()?;
-        std::io::Write::flush(&mut file)?;
-        Ok(())
+        Ok(std::io::Write::flush(&mut file)?)
     }
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use dalembert_fleet::logs::Table;
 
 use crate::support::{
-    Folder, Sample, command, fails, fleet, over, robot, robot_file, says, simulated, succeeds,
+    Folder, Sample, fails, fleet, over, robot, robot_file, says, simulated, started, succeeds,
     text, wait_until,
 };
 
@@ -156,18 +156,15 @@ fn what_is_ended_leaves_nothing() {
 
 #[cfg(unix)]
 fn ended(arguments: &[&str], folder: &Path) {
-    let mut command = command(arguments);
-    let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = started(arguments, Stdio::piped);
     wait_until("something is begun", || {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         fs::read_dir(folder).unwrap().count() > 0
     });
     std::thread::sleep(Duration::from_millis(200));
-    let sent = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status()
-        .unwrap();
-    assert!(sent.success());
+    let mut kill = Command::new("kill");
+    let sent = kill.args(["-INT", &child.id().to_string()]).status();
+    assert!(sent.unwrap().success());
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(130), "{said}");

@@ -15,7 +15,7 @@ use dalembert_fleet::progress::Going;
 use dalembert_fleet::{Dynamics, Residuals};
 
 use crate::support::{
-    Folder, Sample, command, fails, fitted, fleet, over, robot, robot_file, says, succeeds, text,
+    Folder, Sample, fails, fitted, fleet, over, robot, robot_file, says, started, succeeds, text,
     wait_until,
 };
 
@@ -23,11 +23,7 @@ struct Process(Child);
 
 impl Process {
     fn start(arguments: &[&str]) -> Process {
-        let child = command(arguments)
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn();
-        Process(child.unwrap())
+        Process(started(arguments, Stdio::null))
     }
 
     fn kill(&mut self) {
@@ -79,14 +75,9 @@ impl Cluster {
             let port = ports();
             let work = folder.file(name);
             std::fs::create_dir(&work).unwrap();
-            let listen_address = format!("127.0.0.1:{port}");
-            let at = [
-                "--scheduler",
-                address.as_str(),
-                "--listen",
-                listen_address.as_str(),
-            ];
+            let own_address = format!("127.0.0.1:{port}");
             let base = ["executor", "--robot", text(&arm), "--threads", "1"];
+            let at = ["--scheduler", &address, "--listen", &own_address];
             let work_in = ["--work", text(&work)];
             let executor = Process::start(&[&base[..], &at, &work_in].concat());
             wait_for(port);
@@ -134,20 +125,19 @@ fn a_cluster_returns_what_one_process_returns() {
     let cluster = Cluster::start(&folder);
     let (pattern, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
     let loaded = robot("planar2r", true);
-    let name = RobotArgs {
+    let args = RobotArgs {
         robot: arm.clone(),
         chain: Default::default(),
         without_rotors: false,
-    }
-    .function_name(&loaded);
+    };
+    let name = args.function_name(&loaded);
     let dynamics: Arc<dyn Dynamics> = loaded.clone();
     let (memory, partitions) = (1 << 30, 4);
     let limits = Limits { memory, partitions };
     let columns = Columns::canonical(2);
     let (_end, going) = Going::new();
-    let logs: Vec<Log> = (0..3)
-        .map(|k| inspect(&folder.file(&format!("log{k}.parquet")), &columns, &going).unwrap())
-        .collect();
+    let logs: [Log; 3] = ["log0.parquet", "log1.parquet", "log2.parquet"]
+        .map(|name| inspect(&folder.file(name), &columns, &going).unwrap());
     let runtime = tokio::runtime::Runtime::new().unwrap();
     let [here, there] = runtime.block_on(async {
         let here = Engine::embedded(&name, &dynamics, limits).unwrap();
@@ -212,25 +202,18 @@ fn executors_that_are_killed_change_no_table() {
     let base = over("identify", &pattern, &arm, &[]);
     let here = succeeds(&base);
     let there = [&base[..], &["--scheduler", &cluster.address]].concat();
-    let run = || {
-        command(&there)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap()
-    };
-    let mut client = run();
+    let mut client = started(&there, Stdio::piped);
     let (executor, work) = &mut cluster.executors[0];
     has_worked(work, 0, &mut client);
     executor.kill();
     let output = client.wait_with_output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
     assert_eq!(String::from_utf8(output.stdout).unwrap(), here);
 
     let (executor, work) = &mut cluster.executors[1];
     let before = files(work);
-    let mut client = run();
+    let mut client = started(&there, Stdio::piped);
     has_worked(work, before, &mut client);
     executor.kill();
     let killed = Instant::now();

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dalembert_fleet::Dynamics;
-use dalembert_fleet::logs::{Block, Blocks, Columns, Table, canonical_names};
+use dalembert_fleet::logs::{Blocks, Columns, Table, canonical_names};
 use datafusion::arrow::array::{
     ArrayRef, FixedSizeListArray, Float32Array, Float64Array, LargeListArray, ListArray,
     RecordBatch,
@@ -33,10 +33,8 @@ fn rows_with_a_null_are_left_out() {
     let columns = quantities.flat_map(|of| of.chunks_exact(count));
     let columns = columns.map(|column| -> ArrayRef {
         // More than are read at once.
-        let some = column
-            .iter()
-            .enumerate()
-            .map(|(row, x)| (row >= 8500).then_some(*x));
+        let rows = column.iter().enumerate();
+        let some = rows.map(|(row, x)| (row >= 8500).then_some(*x));
         Arc::new(some.collect::<Float64Array>())
     });
     let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
@@ -157,33 +155,25 @@ fn lists_of_any_length_are_read() {
     let (folder, count) = (Folder::new(), 600);
     let sample = Sample::new(robot("planar2r", false).as_ref(), count, 14);
     sample.write(&folder.file("plain.parquet"));
-    let row = |quantity: usize, s: usize| -> Row {
-        let entries = (0..2).map(|i| Some(sample.column(quantity, i)[s]));
-        entries.collect()
-    };
+    let value = |quantity: usize, i: usize, s: usize| Some(sample.column(quantity, i)[s]);
     let written = |name: &str, change: &dyn Fn(usize, &mut Option<Row>)| {
         let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
-        let columns = ["q", "qd", "qdd", "tau"]
-            .into_iter()
-            .enumerate()
-            .map(|(quantity, name)| {
-                let rows: Vec<_> = (0..count)
-                    .map(|s| {
-                        let mut list = Some(row(quantity, s));
-                        if quantity == 0 {
-                            change(s, &mut list);
-                        }
-                        list
-                    })
-                    .collect();
-                type Large = LargeListArray;
-                let lists: ArrayRef = match quantity % 2 {
-                    0 => Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
-                    _ => Arc::new(Large::from_iter_primitive::<Float64Type, _, _>(rows)),
-                };
-                (name, lists)
+        let mut columns = vec![("time", time)];
+        for (quantity, name) in ["q", "qd", "qdd", "tau"].into_iter().enumerate() {
+            let rows = (0..count).map(|s| {
+                let mut list = Some(vec![value(quantity, 0, s), value(quantity, 1, s)]);
+                if quantity == 0 {
+                    change(s, &mut list);
+                }
+                list
             });
-        let columns = std::iter::once(("time", time)).chain(columns);
+            type Large = LargeListArray;
+            let lists: ArrayRef = match quantity % 2 {
+                0 => Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(rows)),
+                _ => Arc::new(Large::from_iter_primitive::<Float64Type, _, _>(rows)),
+            };
+            columns.push((name, lists));
+        }
         let path = folder.file(name);
         write(&path, &RecordBatch::try_from_iter(columns).unwrap());
         path
@@ -224,14 +214,12 @@ fn without_accelerations(log: &Path, to: &Path, factor: Option<f64>) {
     names.retain(|name| !name.starts_with(if factor.is_some() { "qdd" } else { "qd" }));
     let mut table = Table::create(to, &names, false).unwrap();
     for block in Blocks::open(log, &Columns::canonical(2)).unwrap() {
-        let Block {
-            time, quantities, ..
-        } = block.unwrap();
-        let [q, qd, _, tau] = quantities;
+        let block = block.unwrap();
+        let [q, qd, _, tau] = block.quantities;
         let scaled = factor.map(|factor| qd.iter().map(|qd| factor * qd).collect::<Vec<f64>>());
         let vectors = [Some(q), scaled, Some(tau)];
         let columns = vectors.iter().flatten().map(Vec::as_slice);
-        table.write("", &time, columns).unwrap();
+        table.write("", &block.time, columns).unwrap();
     }
     table.close().unwrap();
 }

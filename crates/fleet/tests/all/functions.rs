@@ -62,10 +62,8 @@ fn context(robot: &Arc<dyn Dynamics>, table: MemTable, partitions: usize) -> Ses
 }
 
 fn query(context: &SessionContext, sql: &str) -> Result<RecordBatch, String> {
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .worker_threads(2)
-        .build()
-        .unwrap();
+    let mut runtime = tokio::runtime::Builder::new_multi_thread();
+    let runtime = runtime.worker_threads(2).build().unwrap();
     runtime.block_on(async {
         let frame = context.sql(sql).await.map_err(|why| why.to_string())?;
         let batches = frame.collect().await.map_err(|why| why.to_string())?;
@@ -83,20 +81,16 @@ fn bytes(column: &dyn Array) -> &[u8] {
     column.as_binary::<i32>().value(0)
 }
 
-const COLUMNS: &str = "q1, q2, qd1, qd2, qdd1, qdd2";
-const MEASURED: &str = "tau1, tau2";
-
 #[test]
 fn columns_and_lists_give_the_robots_own_torques() {
     let robot: Arc<dyn Dynamics> = robot("planar2r", false);
     let sample = Sample::new(robot.as_ref(), 1000, 1);
     let context = context(&robot, table(&sample, 2, 300, 1), 1);
-    let sql = format!(
-        "SELECT arm_residual({COLUMNS}, {MEASURED}), arm_residual(q, qd, qdd, tau), \
-         arm_residual(q, qd1, qd2, qdd, tau), arm_residual(q_f32, qd_f32, qdd_f32, tau_f32), \
-         arm_inverse_dynamics({COLUMNS}) FROM logs"
-    );
-    let batch = query(&context, &sql).unwrap();
+    let sql = "SELECT arm_residual(q1, q2, qd1, qd2, qdd1, qdd2, tau1, tau2), \
+               arm_residual(q, qd, qdd, tau), arm_residual(q, qd1, qd2, qdd, tau), \
+               arm_residual(q_f32, qd_f32, qdd_f32, tau_f32), \
+               arm_inverse_dynamics(q1, q2, qd1, qd2, qdd1, qdd2) FROM logs";
+    let batch = query(&context, sql).unwrap();
     let wanted = [0, 1].map(|i| sample.residuals(robot.as_ref(), i));
     for (column, bound) in [(0, 0.0), (1, 0.0), (2, 0.0), (3, 2e-4)] {
         let residuals = floats(batch.column(column));
@@ -143,10 +137,8 @@ fn wrong_widths_are_refused_at_planning() {
     let sample = Sample::new(three.as_ref(), 10, 3);
     let context = context(&robot, table(&sample, 3, 10, 1), 1);
     let said = |sql: &str| {
-        let runtime = tokio::runtime::Builder::new_current_thread()
-            .build()
-            .unwrap();
-        let planned = runtime.block_on(context.sql(sql));
+        let runtime = tokio::runtime::Builder::new_current_thread().build();
+        let planned = runtime.unwrap().block_on(context.sql(sql));
         planned.map(|_| ()).unwrap_err().to_string()
     };
     let three = "`q` is FixedSizeList<Float64, 3>";
@@ -266,18 +258,13 @@ fn fits_by_machine_code_are_those_of_the_library() {
         for s in 0..sample.count {
             let at =
                 |quantity| -> Vec<f64> { (0..n).map(|i| sample.column(quantity, i)[s]).collect() };
-            accumulator
-                .add(model, [&at(0), &at(1), &at(2)], &at(3))
-                .unwrap();
+            let added = accumulator.add(model, [&at(0), &at(1), &at(2)], &at(3));
+            added.unwrap();
         }
         assert_eq!(kept.states, 600);
         let fit = fit(model, &accumulator).unwrap();
-        let parts = kept
-            .parameters
-            .iter()
-            .zip(&fit.parameters)
-            .zip(&fit.standard_errors);
-        for (k, ((x, y), error)) in parts.enumerate() {
+        let pairs = kept.parameters.iter().zip(&fit.parameters);
+        for (k, ((x, y), error)) in pairs.zip(&fit.standard_errors).enumerate() {
             let what = model.name(k);
             assert!((x - y).abs() <= 1e-8 * error, "{name}, {what}: {x} {y}");
         }

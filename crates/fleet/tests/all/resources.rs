@@ -37,15 +37,11 @@ fn memory_does_not_grow_with_the_states() {
     for k in 1..8 {
         std::fs::hard_link(&log, folder.file(&format!("logs/log000{k}.parquet"))).unwrap();
     }
+    let arm = robot_file("planar2r");
     for command in ["residual", "identify"] {
         let [one, eight] = ["logs/log0000.parquet", "logs/*.parquet"].map(|logs| {
             let logs = folder.file(logs);
-            peak(&over(
-                command,
-                &logs,
-                &robot_file("planar2r"),
-                &["--memory", "64M"],
-            ))
+            peak(&over(command, &logs, &arm, &["--memory", "64M"]))
         });
         println!("{command}: {one} KiB, of eight times as many states {eight} KiB");
         assert!(eight < one + (24 << 10), "{command}: {one} {eight}");
@@ -55,16 +51,11 @@ fn memory_does_not_grow_with_the_states() {
 /// KiB, as often as one can look.
 #[cfg(target_os = "linux")]
 fn peak(arguments: &[&str]) -> u64 {
-    let mut command = crate::support::command(arguments);
-    let mut child = command
-        .stdout(std::process::Stdio::null())
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut child = crate::support::started(arguments, std::process::Stdio::null);
+    let path = format!("/proc/{}/status", child.id());
     let mut peak = 0;
     loop {
-        let status =
-            std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let status = std::fs::read_to_string(&path).unwrap_or_default();
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
         let size = line.and_then(|line| line.split_whitespace().next()?.parse().ok());
         peak = size.unwrap_or(0).max(peak);

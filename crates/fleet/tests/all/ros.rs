@@ -78,11 +78,8 @@ fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
         let header = header(channel_id, (time * 1e9) as u64);
         writer.write_to_known_channel(&header, data).unwrap();
     };
-    let names: Vec<&str> = joints
-        .iter()
-        .map(|(name, _)| *name)
-        .filter(|name| !name.is_empty())
-        .collect();
+    let mut names: Vec<&str> = joints.iter().map(|(name, _)| *name).collect();
+    names.retain(|name| !name.is_empty());
     let columns = Columns::canonical(2);
     for block in Blocks::open(log, &columns).unwrap() {
         let block = block.unwrap();

@@ -1,7 +1,7 @@
 //! Robots, logs, and the command.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
@@ -38,9 +38,8 @@ impl Folder {
 
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).unwrap();
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names = Vec::from_iter(names);
         names.sort();
         names
     }
@@ -63,11 +62,10 @@ impl Sample {
     pub fn new(robot: &dyn Dynamics, count: usize, seed: u64) -> Sample {
         let n = robot.joints();
         let mut random = Random::new(seed);
-        let mut draw = |largest: f64| -> Vec<f64> {
+        let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(|largest| {
             let draws = (0..n * count).map(|_| within(&mut random, largest));
-            draws.collect()
-        };
-        let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(&mut draw);
+            draws.collect::<Vec<f64>>()
+        });
         let mut sample = Sample {
             count,
             time: (0..count).map(|k| k as f64 * 1e-3).collect(),
@@ -121,10 +119,16 @@ pub fn wait_until(what: &str, mut has_happened: impl FnMut() -> bool) {
     }
 }
 
-pub fn command(arguments: &[&str]) -> Command {
+fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert-fleet"));
     command.args(arguments);
     command
+}
+
+/// Starts the command; both of its outputs go where `output` says.
+pub fn started(arguments: &[&str], output: fn() -> Stdio) -> Child {
+    let mut command = command(arguments);
+    command.stdout(output()).stderr(output()).spawn().unwrap()
 }
 
 pub fn fleet(arguments: &[&str]) -> Output {

@@ -12,6 +12,7 @@ use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
 use crate::bodies::{BaseMoments, MOMENTS, body_of};
+use crate::canonical::add;
 use crate::number::Number;
 use crate::ring::Polynomial;
 use crate::write::signed_sum;
@@ -38,11 +39,9 @@ pub(crate) fn conditions(coefficient: &Polynomial) -> Vec<Condition> {
         let Some((&lead, &x)) = row.last_key_value() else {
             continue;
         };
-        let ratio = |factor: &Number| factor.over(&x).unwrap_or_else(Number::zero);
-        let row: Condition = row
-            .iter()
-            .map(|(parameter, factor)| (*parameter, ratio(factor)))
-            .collect();
+        for factor in row.values_mut() {
+            *factor = factor.over(&x).unwrap_or_else(Number::zero);
+        }
         for other in &mut echelon {
             if other.contains_key(&lead) {
                 subtract(other, &row);
@@ -63,12 +62,7 @@ fn subtract(row: &mut Condition, other: &Condition) {
         return;
     };
     for (parameter, x) in other {
-        let term = factor.mul(x).neg();
-        let sum = row.get(parameter).map_or(term, |old| old.add(&term));
-        match sum.is_zero() {
-            true => row.remove(parameter),
-            false => row.insert(*parameter, sum),
-        };
+        add(row, *parameter, factor.mul(x).neg());
     }
 }
 
@@ -85,9 +79,7 @@ pub(crate) fn bodies_that_meet(
         let Some((&lead, _)) = condition.last_key_value() else {
             continue;
         };
-        let others = condition
-            .iter()
-            .filter(|(parameter, _)| **parameter != lead);
+        let others = condition.range(..lead);
         let terms = others.map(|(parameter, x)| values[*parameter].mul(&x.residue()));
         let sum = terms.fold(Field::ZERO, |sum, x| sum.add(&x));
         values[lead] = sum.neg();
@@ -111,20 +103,16 @@ pub(crate) fn in_words(
     numbers: &[usize],
     kinds: &[JointKind],
 ) -> Vec<String> {
-    let single = |condition: &&Condition| condition.len() == 1;
-    let (alone, sums): (Vec<&Condition>, Vec<&Condition>) = conditions.iter().partition(single);
-    let alone: Vec<(usize, &str)> = alone
-        .iter()
-        .flat_map(|condition| condition.keys())
-        .map(|&parameter| (moments[parameter].0, MOMENTS[moments[parameter].1]))
-        .collect();
+    let is_single = |condition: &&Condition| condition.len() == 1;
+    let (singles, sums): (Vec<_>, Vec<_>) = conditions.iter().partition(is_single);
+    let mut alone: Vec<(usize, &str)> = Vec::new();
+    for &parameter in singles.into_iter().flat_map(Condition::keys) {
+        alone.push((moments[parameter].0, MOMENTS[moments[parameter].1]));
+    }
     let mut words = Vec::new();
     for (link, &number) in numbers.iter().enumerate() {
-        let mut zero_moments: Vec<&str> = alone
-            .iter()
-            .filter(|(of, _)| *of == link)
-            .map(|(_, moment)| *moment)
-            .collect();
+        let of_link = alone.iter().filter(|(of, _)| *of == link);
+        let mut zero_moments: Vec<&str> = of_link.map(|(_, moment)| *moment).collect();
         let patterns = [
             (
                 ["MX", "MY"],
@@ -146,11 +134,8 @@ pub(crate) fn in_words(
                 words.push(text);
             }
         }
-        words.extend(
-            zero_moments
-                .iter()
-                .map(|moment| format!("{moment}{number} = 0")),
-        );
+        let zeros = zero_moments.iter();
+        words.extend(zeros.map(|moment| format!("{moment}{number} = 0")));
     }
     words.extend(sums_in_words(sums, moments, numbers));
     words
@@ -200,11 +185,8 @@ fn along_axis(
     let [(link, moment), (other, product)] = [moments[*first], moments[*second]];
     let pair = [MOMENTS[moment], MOMENTS[product]];
     let fits = pair == ["MX", "XZ"] || pair == ["MY", "YZ"];
-    (fits && link == other && one.is_one() && terms.next().is_none()).then_some((
-        link,
-        MOMENTS[product],
-        *r,
-    ))
+    let is_along = fits && link == other && one.is_one() && terms.next().is_none();
+    is_along.then_some((link, MOMENTS[product], *r))
 }
 
 fn equation(condition: &Condition, moments: &BaseMoments, numbers: &[usize]) -> String {

@@ -40,6 +40,8 @@ pub(crate) fn is_right(pair: &SinCosPair<Field>) -> bool {
     is_zero(&pair.sin) || is_zero(&pair.cos)
 }
 
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 impl Geometry<'_> {
     /// Lists the facts of the arm.
     pub(crate) fn facts(&self) -> Vec<Fact> {
@@ -49,14 +51,13 @@ impl Geometry<'_> {
             if is_zero(&link.armature) {
                 facts.push(Fact::NoArmature(row));
             }
-            let is_constant = link.kind == JointKind::Prismatic || self.is_locked(row);
+            let (slides, is_locked) = (link.kind == JointKind::Prismatic, self.is_locked(row));
             if let Some(place) = &link.place {
                 let origin = place.origin.iter().enumerate();
                 let zeros = origin.filter(|(_, x)| is_zero(x));
                 facts.extend(zeros.map(|(axis, _)| Fact::NoOrigin(row, axis)));
                 let along = &place.axes[2][2];
-                let entries = place.axes.iter().flatten();
-                if entries.clone().filter(|x| is_zero(x)).count() == 6 {
+                if place.axes.iter().flatten().filter(|x| is_zero(x)).count() == 6 {
                     facts.push(Fact::RightTurn(row));
                 }
                 match () {
@@ -66,16 +67,15 @@ impl Geometry<'_> {
                 }
                 continue;
             }
-            let slides_freely = link.kind == JointKind::Prismatic && !self.is_locked(row);
             // The first step along the first axis moves nothing.
             let has_effect = row > 0 || arm.convention == Convention::Modified;
-            if is_zero(&link.d) && !slides_freely && has_effect {
+            if is_zero(&link.d) && (is_locked || !slides) && has_effect {
                 facts.push(Fact::NoOffset(row));
             }
             if is_zero(&link.a) {
                 facts.push(Fact::NoLength(row));
             }
-            if is_constant && is_right(&self.constant_turn(row)) {
+            if (slides || is_locked) && is_right(&self.constant_turn(row)) {
                 facts.push(Fact::RightTurn(row));
             }
             if link.beta.is_none() {
@@ -103,46 +103,34 @@ impl Geometry<'_> {
             (None, Convention::Standard) => [row + 1, row + 2],
             (None, Convention::Modified) => [row, row + 1],
         };
-        let number = |row: usize| row + 1;
+        let both = |row: usize, how: &str| {
+            let [x, y] = axes(row);
+            format!("axes {x} and {y} {how}")
+        };
         match fact {
-            Fact::NoArmature(row) => format!("joint {} has no armature", number(row)),
-            Fact::NoOffset(row) => format!("d{} = 0", number(row)),
-            Fact::NoLength(row) => {
-                let [x, y] = axes(row);
-                let how = if is_zero(&self.arm.links[row].alpha.sin) {
-                    "coincide"
-                } else {
-                    "meet"
-                };
-                format!("axes {x} and {y} {how}")
-            }
-            Fact::NoOrigin(row, axis) => format!("p{}{} = 0", ["x", "y", "z"][axis], number(row)),
+            Fact::NoArmature(row) => format!("joint {} has no armature", row + 1),
+            Fact::NoOffset(row) => format!("d{} = 0", row + 1),
+            Fact::NoLength(row) => match is_zero(&self.arm.links[row].alpha.sin) {
+                true => both(row, "coincide"),
+                false => both(row, "meet"),
+            },
+            Fact::NoOrigin(row, axis) => format!("p{}{} = 0", AXES[axis], row + 1),
             Fact::RightTurn(row) => match &self.arm.links[row].place {
                 Some(place) => {
                     let [carrier, moved] = axes(row);
                     format!("frame {moved} has {}", along_axes(place, moved, carrier))
                 }
-                None => format!(
-                    "θ{} = {}",
-                    number(row),
-                    right_angle(&self.constant_turn(row))
-                ),
-            },
-            Fact::Gravity => {
-                let along = self.arm.gravity.iter().position(|g| !is_zero(g));
-                match along {
-                    Some(axis) => format!("gravity is along {}0", ["x", "y", "z"][axis]),
-                    None => "there is no gravity".to_owned(),
+                None => {
+                    let turn = right_angle(&self.constant_turn(row));
+                    format!("θ{} = {turn}", row + 1)
                 }
-            }
-            Fact::Across(row) => {
-                let [x, y] = axes(row);
-                format!("axes {x} and {y} are perpendicular")
-            }
-            Fact::Along(row) => {
-                let [x, y] = axes(row);
-                format!("axes {x} and {y} are parallel")
-            }
+            },
+            Fact::Gravity => match self.arm.gravity.iter().position(|g| !is_zero(g)) {
+                Some(axis) => format!("gravity is along {}0", AXES[axis]),
+                None => "there is no gravity".to_owned(),
+            },
+            Fact::Across(row) => both(row, "are perpendicular"),
+            Fact::Along(row) => both(row, "are parallel"),
         }
     }
 }
@@ -159,13 +147,11 @@ fn right_angle(pair: &SinCosPair<Field>) -> &'static str {
 
 /// Writes the directions of the axes of a frame that is turned by right angles: `x3 along z2`.
 fn along_axes(place: &Columns<Field>, moved: usize, carrier: usize) -> String {
-    const AXES: [&str; 3] = ["x", "y", "z"];
     let axes = AXES.iter().zip(&place.axes).map(|(axis, components)| {
         let along = components.iter().position(|x| !is_zero(x)).unwrap_or(0);
-        let sign = if components[along] == Field::ONE {
-            ""
-        } else {
-            "−"
+        let sign = match components[along] == Field::ONE {
+            true => "",
+            false => "−",
         };
         format!("{axis}{moved} along {sign}{}{carrier}", AXES[along])
     });

@@ -70,10 +70,8 @@ impl Inventory {
     /// Counts the coefficients of one quantity: all, those that vanish, and the others, with equal and
     /// opposite ones counted once.
     pub fn summary(&self, quantity: Quantity) -> [usize; 3] {
-        let values = self
-            .0
-            .iter()
-            .filter(|(entry, _)| entry.quantity == quantity);
+        let is_such = |(entry, _): &&(Entry, Value)| entry.quantity == quantity;
+        let values = self.0.iter().filter(is_such);
         let count = |is: fn(&Value) -> bool| values.clone().filter(|(_, value)| is(value)).count();
         [
             count(|_| true),

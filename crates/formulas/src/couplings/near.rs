@@ -8,10 +8,10 @@ use nalgebra::{DMatrix, DVector};
 use super::conditions::{Condition, conditions};
 use super::{Entry, Finder, entries};
 use crate::arm::SymbolicArm;
+use crate::naming::SymbolTable;
 use crate::number::Number;
-use crate::quantity::Quantity;
-use crate::ring::{Polynomial, Symbols};
-use crate::symbol::Symbol;
+use crate::ring::{Monomial, Polynomial, Symbols};
+use crate::symbol::{Definition, Symbol};
 
 /// Couplings below this part of what they could be are weak.
 const WEAK: f64 = 0.02;
@@ -61,6 +61,15 @@ struct Candidate {
     size: f64,
 }
 
+/// Numbers with their places among symbols, those that tell the size of a link, and those that may
+/// change.
+type Table<'a> = (
+    &'a [Definition<Number>],
+    fn(usize) -> Option<Symbols>,
+    fn(&Symbol) -> bool,
+    fn(&Symbol) -> bool,
+);
+
 /// The values of x², x and 1 in a polynomial of degree two.
 type Quadratic = [Number; 3];
 
@@ -69,81 +78,53 @@ impl Definitions {
     /// one link, which may be equal.
     pub(super) fn is_balance(&self, parameter: usize, value: &Number) -> bool {
         let terms = self.parameters[parameter].terms();
-        let is_of_inertia = |symbols: Symbols| {
-            let definition = symbols
-                .parameter_index()
-                .map(|index| &self.arm.parameters[index]);
-            let is_inertia = definition.is_some_and(|entry| entry.symbol.text.starts_with('I'));
-            is_inertia && symbols.lengths().next().is_none()
+        let definition = |(monomial, _): &(Monomial, Number)| {
+            let index = monomial.symbols.parameter_index()?;
+            Some(&self.arm.symbols.parameters[index])
         };
-        let row = |symbols: Symbols| {
-            let index = symbols.parameter_index()?;
-            self.arm.parameters[index].row
+        let is_moment = |term: &(Monomial, Number)| {
+            let is_inertia =
+                definition(term).is_some_and(|entry| entry.symbol.text.starts_with('I'));
+            is_inertia && term.0.symbols.lengths().next().is_none()
         };
-        let mut rows: Vec<_> = terms
-            .iter()
-            .map(|(monomial, _)| row(monomial.symbols))
-            .collect();
+        let row = |term| definition(term).and_then(|definition| definition.row);
+        let mut rows: Vec<_> = terms.iter().map(row).collect();
         rows.dedup();
-        let are_equal_moments = rows.len() == 1
-            && terms
-                .iter()
-                .all(|(monomial, _)| is_of_inertia(monomial.symbols));
+        let are_equal_moments = rows.len() == 1 && terms.iter().all(is_moment);
         value.is_zero() && !terms.is_empty() && !are_equal_moments
-    }
-
-    fn value(&self, symbols: Symbols) -> Number {
-        let values: Vec<Number> = self
-            .arm
-            .parameters
-            .iter()
-            .map(|parameter| parameter.value)
-            .collect();
-        self.arm.value_of(symbols, &values)
     }
 
     /// Lists the centres of mass and the moments of inertia that are not zero, each with the size of its
     /// link.
     fn candidates(&self) -> Vec<Candidate> {
-        let of_row = |definition: &Option<usize>, row: usize| *definition == Some(row);
         let is_centre = |symbol: &Symbol| symbol.text.contains('\u{304}');
         let is_inertia =
             |symbol: &Symbol| symbol.text.starts_with('I') && !symbol.text.ends_with('a');
+        let SymbolTable {
+            lengths,
+            parameters,
+            ..
+        } = &self.arm.symbols;
+        let tables: [Table<'_>; 2] = [
+            (lengths, Symbols::length, |_| true, is_centre),
+            (parameters, Symbols::parameter, is_inertia, is_inertia),
+        ];
         let mut candidates = Vec::new();
         for row in 0..self.arm.arm.links.len() {
-            let lengths = self
-                .arm
-                .lengths
-                .iter()
-                .filter(|length| of_row(&length.row, row));
-            let longest = lengths
-                .map(|length| length.value.magnitude())
-                .fold(1e-9, f64::max);
-            for (index, length) in self.arm.lengths.iter().enumerate() {
-                if of_row(&length.row, row) && is_centre(&length.symbol) {
-                    candidates.extend(Symbols::length(index).map(|place| Candidate {
-                        symbol: length.symbol.clone(),
+            for (numbers, place, has_size, may_change) in tables {
+                let mut of_row: Vec<_> = numbers.iter().enumerate().collect();
+                of_row.retain(|(_, number)| number.row == Some(row) && has_size(&number.symbol));
+                let sizes = of_row.iter().map(|(_, number)| number.value.magnitude());
+                let size = sizes.fold(1e-9, f64::max);
+                of_row.retain(|(_, number)| may_change(&number.symbol));
+                for (index, Definition { symbol, value, .. }) in of_row {
+                    candidates.extend(place(index).map(|place| Candidate {
+                        symbol: symbol.clone(),
                         place,
-                        value: length.value,
-                        size: longest,
+                        value: *value,
+                        size,
                     }));
                 }
-            }
-            let inertias = || {
-                let parameters = self.arm.parameters.iter().enumerate();
-                parameters
-                    .filter(|(_, moment)| of_row(&moment.row, row) && is_inertia(&moment.symbol))
-            };
-            let largest = inertias()
-                .map(|(_, moment)| moment.value.magnitude())
-                .fold(1e-9, f64::max);
-            for (index, moment) in inertias() {
-                candidates.extend(Symbols::parameter(index).map(|place| Candidate {
-                    symbol: moment.symbol.clone(),
-                    place,
-                    value: moment.value,
-                    size: largest,
-                }));
             }
         }
         candidates
@@ -154,7 +135,7 @@ impl Definitions {
         let mut powers = [Number::zero(); 3];
         for (monomial, x) in self.parameters[parameter].terms() {
             let (power, rest) = monomial.symbols.without(place);
-            let value = self.value(rest).mul(x);
+            let value = self.arm.value(rest).mul(x);
             powers[power] = powers[power].add(&value);
         }
         powers
@@ -169,7 +150,7 @@ impl Definitions {
                     .all(|place| monomial.symbols.without(*place).0 == 0)
             });
             terms.fold(Number::zero(), |sum, (monomial, x)| {
-                sum.add(&self.value(monomial.symbols).mul(x))
+                sum.add(&self.arm.value(monomial.symbols).mul(x))
             })
         };
         self.parameters.iter().map(value).collect()
@@ -186,44 +167,36 @@ impl Finder<'_> {
         let Some(definitions) = &self.definitions else {
             return near;
         };
-        let in_numbers = entries(&self.in_numbers);
-        let living: Vec<(Entry, Vec<Condition>)> = entries(&self.in_parameters)
-            .into_iter()
-            .zip(&in_numbers)
-            .filter(|(_, (_, number))| !number.is_zero())
-            .map(|((entry, polynomial), _)| (entry, polynomial))
+        let in_numbers = entries(&self.in_numbers).into_iter();
+        let mut living: Vec<(Entry, Vec<Condition>)> = Vec::new();
+        for ((entry, polynomial), (_, x)) in
+            entries(&self.in_parameters).into_iter().zip(in_numbers)
+        {
             // D_ii is never zero, and would be listed under every number.
-            .filter(|(entry, _)| !matches!(*entry.indices, [i, k] if i == k))
-            .filter(|(_, polynomial)| is_without_constant(polynomial))
-            .map(|(entry, polynomial)| (entry, conditions(polynomial)))
-            .collect();
+            let is_diagonal = matches!(*entry.indices, [i, k] if i == k);
+            if !x.is_zero() && !is_diagonal && is_without_constant(polynomial) {
+                living.push((entry, conditions(polynomial)));
+            }
+        }
         let candidates = definitions.candidates();
         for candidate in &candidates {
             near.alive.extend(alive(definitions, candidate, &living));
         }
         near.alive.sort_by(|a, b| a.part.total_cmp(&b.part));
-        let mut small: Vec<&Candidate> = candidates
-            .iter()
-            .filter(|candidate| candidate.value.magnitude() < SMALL * candidate.size)
-            .collect();
+        let mut small: Vec<&Candidate> = candidates.iter().collect();
+        small.retain(|candidate| candidate.value.magnitude() < SMALL * candidate.size);
         let gone = vanishing(definitions, &small, &living);
         for candidate in small.clone() {
-            let fewer: Vec<&Candidate> = small
-                .iter()
-                .copied()
-                .filter(|other| other.place != candidate.place)
-                .collect();
+            let mut fewer = small.clone();
+            fewer.retain(|other| other.place != candidate.place);
             if vanishing(definitions, &fewer, &living) == gone {
                 small = fewer;
             }
         }
         // One number alone is listed above.
         if small.len() > 1 {
-            let symbols = small
-                .iter()
-                .map(|candidate| candidate.symbol.clone())
-                .collect();
-            near.small = Some((symbols, gone));
+            let symbols = small.iter().map(|candidate| candidate.symbol.clone());
+            near.small = Some((symbols.collect(), gone));
         }
         near
     }
@@ -239,17 +212,15 @@ impl Finder<'_> {
                 largest = largest.zip_map(&inertia, |most: f64, x: f64| most.max(x.abs()));
             }
         }
-        let strength = |entry: &Entry| match *entry.indices {
-            [i, k] if i != k => Some(largest[(i, k)] / (largest[(i, i)] * largest[(k, k)]).sqrt()),
-            _ => None,
-        };
-        let mut weak: Vec<(Entry, f64)> = entries(&self.in_numbers)
-            .into_iter()
-            .filter(|(entry, x)| entry.quantity == Quantity::Inertia && !x.is_zero())
-            .filter_map(|(entry, _)| strength(&entry).map(|part| (entry, part)))
-            .filter(|(_, part)| *part < WEAK)
-            .collect();
-        weak.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut weak = Vec::new();
+        for (entry, x) in entries(&self.in_numbers) {
+            let [i, k] = *entry.indices else { continue };
+            let part = largest[(i, k)] / (largest[(i, i)] * largest[(k, k)]).sqrt();
+            if i != k && !x.is_zero() && part < WEAK {
+                weak.push((entry, part));
+            }
+        }
+        weak.sort_by(|a: &(Entry, f64), b| a.1.total_cmp(&b.1));
         weak
     }
 }
@@ -269,14 +240,14 @@ fn vanishing(
     let removed: Vec<Symbols> = numbers.iter().map(|candidate| candidate.place).collect();
     let values = definitions.without(&removed);
     let holds = |condition: &Condition| {
-        let terms = condition
-            .iter()
-            .map(|(parameter, x)| values[*parameter].mul(x));
-        terms.fold(Number::zero(), |sum, x| sum.add(&x)).is_zero()
+        let terms = condition.iter();
+        let products = terms.map(|(parameter, x)| values[*parameter].mul(x));
+        products
+            .fold(Number::zero(), |sum, x| sum.add(&x))
+            .is_zero()
     };
-    let gone = living
-        .iter()
-        .filter(|(_, conditions)| conditions.iter().all(holds));
+    let is_gone = |(_, conditions): &&(Entry, Vec<Condition>)| conditions.iter().all(holds);
+    let gone = living.iter().filter(is_gone);
     gone.map(|(entry, _)| entry.clone()).collect()
 }
 
@@ -286,24 +257,19 @@ fn alive(
     candidate: &Candidate,
     living: &[(Entry, Vec<Condition>)],
 ) -> Vec<Alive> {
-    let parameters = 0..definitions.parameters.len();
-    let powers: Vec<Quadratic> = parameters
-        .map(|parameter| definitions.in_one(parameter, candidate.place))
-        .collect();
+    let in_one = |parameter| definitions.in_one(parameter, candidate.place);
+    let powers: Vec<Quadratic> = (0..definitions.parameters.len()).map(in_one).collect();
     let mut roots: Vec<(Number, Alive)> = Vec::new();
     for (entry, conditions) in living {
         let Some(root) = common_root(conditions, &powers, &candidate.value) else {
             continue;
         };
-        let change = candidate.value.sub(&root).magnitude();
-        let part = change / candidate.size;
+        let part = candidate.value.sub(&root).magnitude() / candidate.size;
         if part >= FAR {
             continue;
         }
-        match roots
-            .iter_mut()
-            .find(|(other, _)| other.residue() == root.residue())
-        {
+        let mut known = roots.iter_mut();
+        match known.find(|(other, _)| other.residue() == root.residue()) {
             Some((_, alive)) => alive.entries.push(entry.clone()),
             None => roots.push((
                 root,
@@ -322,16 +288,13 @@ fn alive(
 
 /// Returns the value at which all conditions hold: zero, or the root of one that is linear.
 fn common_root(conditions: &[Condition], powers: &[Quadratic], now: &Number) -> Option<Number> {
-    let sums: Vec<Quadratic> = conditions
-        .iter()
-        .map(|condition| {
-            condition
-                .iter()
-                .fold([Number::zero(); 3], |sum, (parameter, x)| {
-                    [0, 1, 2].map(|power| sum[power].add(&powers[*parameter][power].mul(x)))
-                })
+    let sum = |condition: &Condition| {
+        let terms = condition.iter();
+        terms.fold([Number::zero(); 3], |sum, (parameter, x)| {
+            [0, 1, 2].map(|power| sum[power].add(&powers[*parameter][power].mul(x)))
         })
-        .collect();
+    };
+    let sums: Vec<Quadratic> = conditions.iter().map(sum).collect();
     let at = |[c, b, a]: &Quadratic, x: &Number| c.add(&x.mul(&b.add(&a.mul(x))));
     let linear = sums
         .iter()

@@ -29,10 +29,8 @@ const ROBOTS: [&str; 9] = [
 fn vanishes(entry: &Polynomial, values: &[Field]) -> bool {
     let mut sums: BTreeMap<u128, Field> = BTreeMap::new();
     for (monomial, x) in entry.terms() {
-        let value = monomial
-            .symbols
-            .parameter_index()
-            .map_or(Field::ONE, |index| values[index]);
+        let index = monomial.symbols.parameter_index();
+        let value = index.map_or(Field::ONE, |index| values[index]);
         let sum = sums.entry(monomial.motion).or_insert(Field::ZERO);
         *sum = sum.add(&value.mul(&x.residue()));
     }
@@ -57,11 +55,8 @@ fn facts_are_needed_and_suffice() {
             // Other facts may be anything.
             assert!(finder.zeros(&kept).contains(entry), "{path}: {entry:?}");
             for fact in &kept {
-                let rest: Vec<Fact> = kept.iter().copied().filter(|other| other != fact).collect();
-                assert!(
-                    !finder.zeros(&rest).contains(entry),
-                    "{path}: {entry:?}, {fact:?}"
-                );
+                let is_zero = finder.zeros(&without(&kept, fact)).contains(entry);
+                assert!(!is_zero, "{path}: {entry:?}, {fact:?}");
                 checked += 1;
             }
         }
@@ -80,13 +75,10 @@ fn conditions_are_needed_and_suffice() {
         let values: Vec<Field> = finder.values.iter().map(Number::residue).collect();
         let numbers = entries(&finder.in_numbers);
         let symbolic = entries(&finder.in_parameters);
-        let zeros = numbers
-            .iter()
-            .zip(&symbolic)
-            .filter(|((_, x), _)| x.is_zero());
-        for ((entry, _), (_, polynomial)) in
-            zeros.filter(|(_, (_, entry_in_parameters))| !entry_in_parameters.is_zero())
-        {
+        for ((entry, x), (_, polynomial)) in numbers.iter().zip(&symbolic) {
+            if !x.is_zero() || polynomial.is_zero() {
+                continue;
+            }
             assert!(vanishes(polynomial, &values), "{path}: {entry:?}");
             let conditions = conditions(polynomial);
             for condition in &conditions {
@@ -98,10 +90,8 @@ fn conditions_are_needed_and_suffice() {
             }
             let mut changed = values.clone();
             for (parameter, value) in changed.iter_mut().enumerate() {
-                if !conditions
-                    .iter()
-                    .any(|condition| condition.contains_key(&parameter))
-                {
+                let is_in = |condition: &Condition| condition.contains_key(&parameter);
+                if !conditions.iter().any(is_in) {
                     *value = points.field();
                 }
             }

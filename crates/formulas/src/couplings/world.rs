@@ -12,9 +12,8 @@ use dalembert_model::robot::{Inertia, JointKind};
 use dalembert_model::scalar::field::{Field, Points};
 
 use super::facts::{Fact, is_right, is_zero};
-use crate::arm::{SymbolicArm, posed};
+use crate::arm::{SymbolicArm, mapped, posed};
 use crate::entries::Coefficients;
-use crate::number::Number;
 use crate::ring::Polynomial;
 
 /// A robot's geometry in the field.
@@ -22,14 +21,12 @@ pub(crate) struct Geometry<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) arm: Arm<Field>,
     locks: Vec<Option<JointPosition<Field>>>,
-    joints: Vec<JointKind>,
     is_moving: Vec<bool>,
 }
 
 /// The parts of a robot that a world keeps.
 #[derive(Clone, Copy)]
 pub(crate) struct World<'a> {
-    /// The facts.
     pub(crate) facts: &'a [Fact],
     /// True if lengths and odd angles stay as they are: where conditions have numbers in them.
     pub(crate) keeps_numbers: bool,
@@ -39,26 +36,19 @@ pub(crate) struct World<'a> {
 }
 
 fn residue(x: &Polynomial) -> Field {
-    x.to_constant().map_or(Field::ZERO, |x: Number| x.residue())
+    x.to_constant().map_or(Field::ZERO, |x| x.residue())
 }
 
 impl<'a> Geometry<'a> {
     /// Takes the numbers of an arm without symbols.
     pub(crate) fn new(setup: &'a Setup, arm: &SymbolicArm) -> Geometry<'a> {
-        let robot = setup.robot();
-        let lock = |lock: &Option<JointPosition<Polynomial>>| {
-            Some(match lock.as_ref()? {
-                JointPosition::Revolute(pair) => JointPosition::Revolute(pair.map(residue)),
-                JointPosition::Prismatic(q) => JointPosition::Prismatic(residue(q)),
-            })
-        };
+        let lock = |lock: &Option<_>| lock.as_ref().map(|lock| mapped(lock, residue));
         let is_moving = |joint: usize| arm.variables.iter().any(|variable| variable.joint == joint);
         Geometry {
             setup,
             arm: arm.arm.map(residue),
             locks: arm.locks.iter().map(lock).collect(),
-            joints: robot.joints.iter().map(|joint| joint.kind).collect(),
-            is_moving: (0..robot.joints.len()).map(is_moving).collect(),
+            is_moving: (0..setup.robot().joints.len()).map(is_moving).collect(),
         }
     }
 
@@ -95,6 +85,7 @@ impl<'a> Geometry<'a> {
                     *x = lengths[drawn];
                 }
             };
+            let keeps_angle = keeps(Fact::Along(row)) || keeps(Fact::Across(row));
             match &mut link.place {
                 Some(place) => {
                     for axis in 0..3 {
@@ -104,19 +95,11 @@ impl<'a> Geometry<'a> {
                     let is_odd = place.axes.iter().flatten().filter(|x| is_zero(x)).count() < 4;
                     let stays = keeps(Fact::RightTurn(row)) || world.keeps_numbers && is_odd;
                     if !stays {
-                        *place = turned(
-                            place,
-                            &turns,
-                            keeps(Fact::Along(row)) || keeps(Fact::Across(row)),
-                        );
+                        *place = turned(place, &turns, keeps_angle);
                     }
                 }
                 None => {
-                    angle(
-                        &mut link.alpha,
-                        0,
-                        keeps(Fact::Along(row)) || keeps(Fact::Across(row)),
-                    );
+                    angle(&mut link.alpha, 0, keeps_angle);
                     if let Some(beta) = &mut link.beta {
                         angle(beta, 1, false);
                     }
@@ -152,11 +135,8 @@ impl<'a> Geometry<'a> {
         let position = self.position(&mut points, &arm.following, &locks);
         let posed = posed(&arm, &locks, &position);
         let mut chain = posed.chain.clone();
-        for (link, body) in chain
-            .links
-            .iter_mut()
-            .zip(world.bodies.into_iter().flatten())
-        {
+        let bodies = world.bodies.into_iter().flatten();
+        for (link, body) in chain.links.iter_mut().zip(bodies) {
             link.body = body.clone();
         }
         let none = |_: &Field| false;
@@ -172,16 +152,13 @@ impl<'a> Geometry<'a> {
         let robot = self.setup.robot();
         let mut position: Vec<JointPosition<Field>> =
             vec![JointPosition::Prismatic(Field::ZERO); self.arm.links.len()];
-        for (joint, kind) in self.joints.iter().enumerate() {
+        for (joint, line) in robot.joints.iter().enumerate() {
             let row = robot.row_of(joint);
-            let drawn = match kind {
+            let drawn = match line.kind {
                 JointKind::Revolute => JointPosition::Revolute(circle(points)),
                 JointKind::Prismatic => JointPosition::Prismatic(points.field()),
             };
-            position[row] = match &locks[row] {
-                Some(lock) => lock.clone(),
-                None => drawn,
-            };
+            position[row] = locks[row].clone().unwrap_or(drawn);
         }
         for follower in following {
             position[follower.row] = position[follower.leader].followed_by(follower);

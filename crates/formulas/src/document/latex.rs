@@ -1,9 +1,8 @@
 //! A LaTeX document.
 
 use super::text::capital;
-use super::{BASE_PARAMETERS, CONSTANTS, signed, value, zeros};
+use super::{CONSTANTS, defined, zeros};
 use crate::formulas::Formulas;
-use crate::legend::SymbolEntry;
 use crate::write::{Format, Latex};
 
 const HEAD: &str = "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage[margin=15mm]{geometry}\n\
@@ -19,7 +18,7 @@ impl Formulas {
             text += "\nThe equations of motion are $\\tau_i = \\sum_k D_{ik}\\,\\ddot q_k + \\sum_k\\sum_m h_{ikm}\\,\\dot \
                      q_k\\,\\dot q_m + c_i$ with $h_{ikm} = h_{imk}$: a pair $k < m$ counts twice.\n";
         }
-        if self.has_small_terms() {
+        if self.has_term(|term| term.is_small) {
             text += "\nTerms below 1/1000 of the largest of a line are in braces at its end.\n";
         }
         for remark in self.remarks() {
@@ -36,27 +35,17 @@ impl Formulas {
             }
         }
         let legend = &self.legend;
-        // Constants are short: several on a line.
-        let sums = [
-            (CONSTANTS, &legend.constants, ",\n"),
-            (BASE_PARAMETERS, &legend.parameters, "\\par\n"),
-        ];
-        for (title, entries, gap) in sums {
-            if !entries.is_empty() {
-                let lines: Vec<String> =
-                    entries.iter().map(|entry| defined(entry, format)).collect();
-                text += &format!("{}{}.\n", heading(title), lines.join(gap));
-            }
+        for (title, entries) in self.sums() {
+            // Constants are short: several on a line.
+            let gap = if title == CONSTANTS { ",\n" } else { "\\par\n" };
+            let lines = defined(entries, format, "$", gap);
+            text += &format!("{}{lines}.\n", heading(title));
         }
         if !legend.groups.is_empty() {
             text += &heading(&legend.title_of_groups());
             for group in &legend.groups {
-                let entries: Vec<String> = group
-                    .entries
-                    .iter()
-                    .map(|entry| defined(entry, format))
-                    .collect();
-                text += &format!("{}: {}\\par\n", plain(&group.label), entries.join(", "));
+                let entries = defined(&group.entries, format, "$", ", ");
+                text += &format!("{}: {entries}\\par\n", plain(&group.label));
             }
         }
         text + "\\end{document}\n"
@@ -77,41 +66,21 @@ impl Formulas {
                 ));
             }
         }
-        let offsets = self.offsets("θ", |turn| {
-            signed(&turn.to_string().replace("pi", "\\pi ").replace('*', "\\,"))
-        });
-        for line in offsets {
-            let Some((left, right)) = line.split_once(" = q") else {
-                continue;
-            };
-            let digits = right.find(' ').unwrap_or(right.len());
-            let (joint, rest) = right.split_at(digits);
-            let letter = if left.starts_with('θ') {
-                "\\theta"
-            } else {
-                "d"
-            };
-            parts.push(format!("${letter}_{{{joint}}} = q_{{{joint}}}{rest}$"));
+        let in_latex = |angle: String| angle.replace("pi", "\\pi ").replace('*', "\\,");
+        for (letter, joint, shift) in self.offsets(in_latex) {
+            let letter = letter.replace('θ', "\\theta");
+            parts.push(format!("${letter}_{{{joint}}} = q_{{{joint}}}{shift}$"));
         }
         parts
     }
 }
 
-fn defined(entry: &SymbolEntry, format: &Latex) -> String {
-    let (symbol, value) = (format.symbol(&entry.symbol), value(entry, format));
-    match entry.sum.is_empty() {
-        true => format!("${symbol} = {value}$"),
-        false => format!("${symbol} = {} = {value}$", format.sum(&entry.sum)),
-    }
-}
-
 fn heading(title: &str) -> String {
-    match title.split_once(": ") {
-        Some((title, below)) => {
-            format!("\n\\subsection*{{{}}}\n{}.\n\n", prose(title), prose(below))
-        }
-        None => format!("\n\\subsection*{{{}}}\n", prose(title)),
-    }
+    let (title, below) = match title.split_once(": ") {
+        Some((title, below)) => (title, format!("{}.\n\n", prose(below))),
+        None => (title, String::new()),
+    };
+    format!("\n\\subsection*{{{}}}\n{below}", prose(title))
 }
 
 /// Writes words of a heading or a legend; `D_ik` and `D^rot_ik` are mathematics.

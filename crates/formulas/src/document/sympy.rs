@@ -18,25 +18,16 @@ impl Formulas {
             self.robot
         );
         for letter in ["q", "dq", "ddq"] {
-            let names = self.variables.iter();
-            text += &declared(
-                names
-                    .map(|variable| format!("{letter}{}", variable.joint + 1))
-                    .collect(),
-            );
+            let joints = self.variables.iter().map(|variable| variable.joint + 1);
+            text += &declared(joints.map(|joint| format!("{letter}{joint}")));
         }
         text += "# θ and d of the table: positions with their offsets.\n";
         for variable in &self.variables {
             let number = variable.joint + 1;
-            if variable.kind == JointKind::Prismatic && variable.offset == Offset::None {
-                continue;
-            }
-            let letter = if variable.kind == JointKind::Revolute {
-                "t"
-            } else {
-                "d"
-            };
+            let turns = variable.kind == JointKind::Revolute;
+            let letter = if turns { "t" } else { "d" };
             let offset = match &variable.offset {
+                Offset::None if !turns => continue,
                 Offset::None => String::new(),
                 Offset::Angle(angle) => format!(" + {}", python_angle(angle)),
                 Offset::Length(length) => format!(" + {}", python_number(length)),
@@ -45,17 +36,10 @@ impl Formulas {
         }
         let legend = &self.legend;
         let of_file = legend.groups.iter().flat_map(|group| &group.entries);
-        let symbols: Vec<&SymbolEntry> = of_file
-            .chain(&legend.parameters)
-            .chain(&legend.constants)
-            .collect();
+        let defined = legend.parameters.iter().chain(&legend.constants);
+        let symbols: Vec<&SymbolEntry> = of_file.chain(defined).collect();
         if !symbols.is_empty() {
-            text += &declared(
-                symbols
-                    .iter()
-                    .map(|entry| entry.symbol.code.clone())
-                    .collect(),
-            );
+            text += &declared(symbols.iter().map(|entry| entry.symbol.code.clone()));
         }
         for section in &self.sections {
             text += &format!("\n# {}\n", section.title);
@@ -71,7 +55,7 @@ impl Formulas {
                 text += &format!("{} = R(0)\n", zero.code);
             }
             if let Some(list) = &section.list {
-                text += &format!("{} = {}\n", list.name, nested(list, 0, 0).0);
+                text += &format!("{} = {}\n", list.name, nested(list));
             }
         }
         if symbols.is_empty() {
@@ -90,7 +74,8 @@ impl Formulas {
 }
 
 /// Writes the declaration of symbols.
-fn declared(names: Vec<String>) -> String {
+fn declared(names: impl Iterator<Item = String>) -> String {
+    let names: Vec<String> = names.collect();
     let (left, right) = (names.join(", "), names.join(" "));
     format!("[{left}] = symbols('{right}', real=True, seq=True)\n")
 }
@@ -103,17 +88,14 @@ fn python_angle(angle: &Angle) -> String {
     }
 }
 
-/// Writes a nested list from an entry on: returns the text and the next entry.
-fn nested(list: &List, depth: usize, from: usize) -> (String, usize) {
-    let Some(length) = list.lengths.get(depth) else {
-        return (list.entries[from].code.clone(), from + 1);
-    };
-    let mut parts = Vec::new();
-    let mut next = from;
-    for _ in 0..*length {
-        let (part, after) = nested(list, depth + 1, next);
-        parts.push(part);
-        next = after;
+/// Writes a nested list, the innermost lists first.
+fn nested(list: &List) -> String {
+    let entries = list.entries.iter();
+    let mut parts: Vec<String> = entries.map(|entry| entry.code.clone()).collect();
+    for length in list.lengths.iter().rev() {
+        let chunks = parts.chunks(*length);
+        let lists = chunks.map(|entries| format!("[{}]", entries.join(", ")));
+        parts = lists.collect();
     }
-    (format!("[{}]", parts.join(", ")), next)
+    parts.concat()
 }

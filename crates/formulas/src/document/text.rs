@@ -1,8 +1,8 @@
 //! Plain text and Markdown.
 
-use super::{BASE_PARAMETERS, CONSTANTS, SMALL, signed, value, zeros};
+use super::{BASE_PARAMETERS, CONSTANTS, SMALL, defined, has_multiple, value, zeros};
 use crate::formulas::Formulas;
-use crate::legend::{Group, SymbolEntry};
+use crate::legend::SymbolEntry;
 use crate::write::{Digits, Format, Text};
 
 impl Formulas {
@@ -21,34 +21,23 @@ impl Formulas {
             }
         }
         for (title, entries) in self.sums() {
-            text += &format!("\n{title}\n");
-            for entry in entries {
-                text += &format!("{}\n", defined(entry, format));
-            }
+            text += &format!("\n{title}\n{}\n", defined(entries, format, "", "\n"));
         }
         if !self.legend.groups.is_empty() {
             text += &format!("\n{}\n", &self.legend.title_of_groups());
             for group in &self.legend.groups {
-                text += &format!("{}: {}\n", group.label, all_defined(group, format));
+                let entries = defined(&group.entries, format, "", ", ");
+                text += &format!("{}: {entries}\n", group.label);
             }
         }
         text
     }
 
-    pub(super) fn markdown(&self, format: &Text) -> String {
-        let title = escaped(&self.robot);
-        format!("# {title}\n\n{}", self.notes_and_tables(format, 2))
-    }
-
     /// Writes formulas and legend as Markdown, below headings of a level.
     pub fn in_markdown(&self, level: usize, digits: Digits) -> String {
         let joins = self.joints < 10;
-        self.notes_and_tables(&Text { digits, joins }, level)
-    }
-
-    fn notes_and_tables(&self, format: &Text, level: usize) -> String {
         let notes = self.notes().into_iter().map(|note| format!("- {note}\n"));
-        notes.collect::<String>() + &self.tables(format, level)
+        notes.collect::<String>() + &self.tables(&Text { digits, joins }, level)
     }
 
     fn tables(&self, format: &Text, level: usize) -> String {
@@ -87,13 +76,12 @@ impl Formulas {
             table(title, ["symbol", "value"], rows.collect());
         }
         if !self.legend.groups.is_empty() {
-            let groups = self.legend.groups.iter();
-            let rows = groups.map(|group| [escaped(&group.label), all_defined(group, format)]);
-            table(
-                &self.legend.title_of_groups(),
-                ["joint", "values"],
-                rows.collect(),
-            );
+            let rows = self.legend.groups.iter().map(|group| {
+                let values = defined(&group.entries, format, "", ", ");
+                [escaped(&group.label), values]
+            });
+            let title = self.legend.title_of_groups();
+            table(&title, ["joint", "values"], rows.collect());
         }
         text
     }
@@ -118,7 +106,7 @@ impl Formulas {
                     format!("C({first}+{second}) = cos({angle}{first} + {angle}{second})")
                 }
             };
-            let double = match self.has_multiples() {
+            let double = match self.has_term(has_multiple) {
                 true => format!(", C(2·{second}) = cos(2·{angle}{second})"),
                 false => String::new(),
             };
@@ -126,18 +114,19 @@ impl Formulas {
                 "S and C are sine and cosine of sums of angles: {sum}{double}"
             ));
         }
-        let offsets = self.offsets("θ", |turn| signed(&turn.to_string().replace("pi", "π")));
-        if !offsets.is_empty() {
-            notes.push(offsets.join(", "));
+        let offsets = self.offsets(|angle| angle.replace("pi", "π")).into_iter();
+        let line = |(letter, joint, shift)| format!("{letter}{joint} = q{joint}{shift}");
+        if offsets.len() > 0 {
+            notes.push(offsets.map(line).collect::<Vec<_>>().join(", "));
         }
-        if self.has_small_terms() {
+        if self.has_term(|term| term.is_small) {
             notes.push(SMALL.to_owned());
         }
         notes.extend(self.remarks());
         notes
     }
 
-    fn sums(&self) -> Vec<(&'static str, &[SymbolEntry])> {
+    pub(super) fn sums(&self) -> Vec<(&'static str, &[SymbolEntry])> {
         let legend = &self.legend;
         let groups = [
             (CONSTANTS, legend.constants.as_slice()),
@@ -161,12 +150,6 @@ pub(super) fn capital(words: &str) -> String {
     }
 }
 
-/// Writes the symbols of a group with their values.
-fn all_defined(group: &Group, format: &Text) -> String {
-    let entries = group.entries.iter().map(|entry| defined(entry, format));
-    entries.collect::<Vec<_>>().join(", ")
-}
-
 /// Escapes the letters of a name that Markdown reads as marks.
 pub fn escaped(name: &str) -> String {
     let mut text = String::new();
@@ -177,13 +160,4 @@ pub fn escaped(name: &str) -> String {
         text.push(letter);
     }
     text
-}
-
-/// Writes a symbol, its sum and its value.
-fn defined(entry: &SymbolEntry, format: &Text) -> String {
-    let (symbol, value) = (format.symbol(&entry.symbol), value(entry, format));
-    match entry.sum.is_empty() {
-        true => format!("{symbol} = {value}"),
-        false => format!("{symbol} = {} = {value}", format.sum(&entry.sum)),
-    }
 }

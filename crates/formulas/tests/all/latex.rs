@@ -3,7 +3,6 @@
 use std::fs;
 use std::process::{Command, Stdio};
 
-use dalembert_codegen::workspace::Word;
 use dalembert_formulas::{Digits, Formulas, Layout, Quantity, Request, Style};
 
 use crate::values::read;
@@ -18,10 +17,10 @@ fn documents_compile() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let quantities: Vec<Quantity> = Quantity::all()
-        .into_iter()
-        .map(|(_, quantity)| quantity)
-        .collect();
+    let request = Request {
+        quantities: Quantity::ALL.to_vec(),
+        style: Style::Names,
+    };
     let names = [
         "generated/robots/puma560",
         "codegen/tests/data/rprpr",
@@ -29,9 +28,7 @@ fn documents_compile() {
     ];
     for name in names {
         let (robot, _) = read(&format!("{name}.toml"));
-        let quantities = quantities.clone();
-        let style = Style::Names;
-        let formulas = Formulas::new(&robot, None, &Request { quantities, style }).unwrap();
+        let formulas = Formulas::new(&robot, None, &request).unwrap();
         let text = formulas.write(Layout::Latex, Digits::Six);
         fs::write(folder.path().join("a.tex"), text).unwrap();
         let output = Command::new("pdflatex")

@@ -130,13 +130,9 @@ struct Reader<'t> {
 
 impl Reader<'_> {
     fn takes(&mut self, sign: &str) -> bool {
-        match self.rest.trim_start().strip_prefix(sign) {
-            Some(rest) => {
-                self.rest = rest;
-                true
-            }
-            None => false,
-        }
+        let rest = self.rest.trim_start().strip_prefix(sign);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
     }
 
     fn sum(&mut self) {
@@ -204,13 +200,10 @@ impl Reader<'_> {
     fn rational(&mut self) {
         let (inside, rest) = self.rest[1..].split_once(')').unwrap();
         self.rest = rest;
-        let parts: Vec<f64> = inside
-            .trim_matches('\'')
-            .split([',', '/'])
-            .map(|x| x.trim().parse().unwrap())
-            .collect();
-        self.steps
-            .push(Step::Push(parts[0] / parts.get(1).copied().unwrap_or(1.0)));
+        let parts = inside.trim_matches('\'').split([',', '/']);
+        let mut numbers = parts.map(|x| x.trim().parse::<f64>().unwrap());
+        let value = numbers.next().unwrap() / numbers.next().unwrap_or(1.0);
+        self.steps.push(Step::Push(value));
     }
 
     fn word(&mut self) -> String {

@@ -1,7 +1,6 @@
 //! The number of terms of formulas, and their text.
 
-use dalembert_codegen::workspace::Word;
-use dalembert_formulas::{Digits, Formulas, Layout, Quantity, Request, Style};
+use dalembert_formulas::{Digits, Formulas, Layout, Quantity, Request, Style, products};
 use dalembert_model::read::parse;
 use dalembert_model::robot::Robot;
 
@@ -18,19 +17,12 @@ fn formulas(robot: &Robot, style: Style, quantities: &[Quantity]) -> Formulas {
 fn terms(path: &str) -> [usize; 4] {
     let (robot, _) = read(path);
     let formulas = formulas(&robot, Style::Numbers, &COEFFICIENTS);
-    let sum = |section: usize| -> usize {
-        formulas.sections[section]
-            .lines
-            .iter()
-            .map(|line| line.sum.len())
-            .sum()
+    let lengths = |section: usize| {
+        let lines = formulas.sections[section].lines.iter();
+        lines.map(|line| line.sum.len())
     };
-    [
-        formulas.sections[0].lines[0].sum.len(),
-        sum(0),
-        sum(1),
-        sum(2),
-    ]
+    let [d, h, c] = [0, 1, 2].map(|section| lengths(section).sum());
+    [lengths(0).next().unwrap(), d, h, c]
 }
 
 /// The fewest terms of seven bases that were compared.
@@ -53,14 +45,9 @@ fn large_entries_are_written_by_rows() {
     let (robot, _) = read("generated/robots/panda.toml");
     let formulas = formulas(&robot, Style::Names, &COEFFICIENTS[..1]);
     assert!(formulas.sections[0].title.starts_with("Rows of the axes"));
-    let sizes = formulas.sections.iter().flat_map(|section| &section.lines);
-    let total: usize = sizes
-        .clone()
-        .map(|line| dalembert_formulas::products(&line.sum))
-        .sum();
-    let largest = sizes
-        .map(|line| dalembert_formulas::products(&line.sum))
-        .max();
+    let lines = formulas.sections.iter().flat_map(|section| &section.lines);
+    let sizes = lines.map(|line| products(&line.sum));
+    let (total, largest) = (sizes.clone().sum::<usize>(), sizes.max());
     // Expanded they have 3069.
     assert!(total < 1313, "{total}");
     assert!(largest < Some(80), "{largest:?}");
@@ -80,11 +67,8 @@ joint = [
 #[test]
 fn a_textbooks_arm_reads_as_in_the_book() {
     let robot = parse(CRAIG).unwrap().robot;
-    let quantities = [
-        COEFFICIENTS.as_slice(),
-        &[Quantity::Torque, Quantity::KineticEnergy],
-    ]
-    .concat();
+    let energies = [Quantity::Torque, Quantity::KineticEnergy];
+    let quantities = [COEFFICIENTS.as_slice(), &energies].concat();
     let text = formulas(&robot, Style::Names, &quantities).write(Layout::Text, Digits::Six);
     let wanted = [
         "D_11 = a1²·m1 + a1²·m2 + 2·a1·a2·m2·C2 + a2²·m2",
@@ -97,10 +81,7 @@ fn a_textbooks_arm_reads_as_in_the_book() {
         "joint 2: a2 = 0.4, m2 = 2.3",
     ];
     for line in wanted {
-        assert!(
-            text.lines().any(|text_line| text_line == line),
-            "{line}\n{text}"
-        );
+        assert!(text.lines().any(|other| other == line), "{line}\n{text}");
     }
 }
 
@@ -113,18 +94,15 @@ fn constants_of_the_puma_are_the_published_ones() {
     robot.joints[3].com[1] = -robot.joints[3].com[1].clone();
     let quantities = [Quantity::Inertia, Quantity::Gravity];
     let formulas = formulas(&robot, Style::Constants, &quantities);
-    let values: Vec<f64> = formulas
-        .legend
-        .constants
-        .iter()
-        .map(|constant| constant.value.to_f64())
-        .collect();
+    let constants = formulas.legend.constants.iter();
+    let values: Vec<f64> = constants.map(|constant| constant.value.to_f64()).collect();
     assert_eq!(values.len(), 27);
     for published in [0.744, 0.333, 0.298, -0.0213 * 0.5, 8.44] {
         let near = |constant: &f64| {
+            let ratio = constant.abs() / f64::abs(published);
             [0.5, 1.0, 2.0]
                 .iter()
-                .any(|x| (x * constant.abs() / f64::abs(published) - 1.0).abs() < 4e-3)
+                .any(|x| (x * ratio - 1.0).abs() < 4e-3)
         };
         assert!(values.iter().any(near), "{published}: {values:?}");
     }
@@ -133,14 +111,10 @@ fn constants_of_the_puma_are_the_published_ones() {
 #[test]
 fn every_format_and_style_is_deterministic() {
     let (robot, _) = read("generated/robots/stanford.toml");
-    let quantities: Vec<Quantity> = Quantity::all()
-        .into_iter()
-        .map(|(_, quantity)| quantity)
-        .collect();
-    for (_, style) in Style::all() {
-        for (_, layout) in Layout::all() {
-            let texts =
-                [0, 1].map(|_| formulas(&robot, style, &quantities).write(layout, Digits::All));
+    for style in Style::ALL {
+        for layout in Layout::ALL {
+            let write = |_| formulas(&robot, style, &Quantity::ALL).write(layout, Digits::All);
+            let texts = [0, 1].map(write);
             assert_eq!(texts[0], texts[1]);
             assert!(!texts[0].contains("NaN"));
         }

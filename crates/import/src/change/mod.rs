@@ -146,11 +146,9 @@ impl Change {
             poses.push([at + turn * part.lever_at(Pair::of(q)), turn * part.turn]);
         }
         let most = |off: fn([Pair; 2], [Pair; 2]) -> f64| {
-            let ends = self
-                .ends
-                .iter()
-                .map(|(body, tool)| off(poses[*body], *tool));
-            ends.fold(0.0, f64::max)
+            let ends = self.ends.iter();
+            let offs = ends.map(|(body, tool)| off(poses[*body], *tool));
+            offs.fold(0.0, f64::max)
         };
         Displacement {
             position: most(|[at, turn], [lever, _]| (at + turn * lever).off),
@@ -224,13 +222,10 @@ fn angle(chord: f64) -> f64 {
 }
 
 pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Options) -> Change {
-    let joints = || {
-        snapped
-            .bodies
-            .iter()
-            .map(|branch| &model.joints[branch.joint])
-    };
-    let links = written.bodies.iter().zip(&snapped.bodies).zip(joints());
+    let bodies = &snapped.bodies;
+    let joints = || bodies.iter().map(|branch| &model.joints[branch.joint]);
+    let pairs = written.bodies.iter().zip(&snapped.bodies).zip(joints());
+    let links = pairs.map(|((one, other), joint)| parts(one, other, joint.kind == Kind::Prismatic));
     let upper = |value: &Rational| f64::nearest_rational(&value.abs()).next_up();
     let limit_or = |limit: &Option<Number>, otherwise: f64| {
         positive(limit).map_or(otherwise, |limit| upper(&limit.value))
@@ -258,14 +253,9 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
         let turned = Pair::new(1.0, root_of_squares(&turned));
         (one.0, [vectors(&tools[0].origin, &tools[1].origin), turned])
     });
-    let gravity = model
-        .gravity
-        .as_ref()
-        .map(|gravity| {
-            let sizes = gravity.each_ref().map(|x| upper(&x.value));
-            root_of_squares(&sizes)
-        })
-        .unwrap_or(9.81);
+    let gravity = model.gravity.as_ref().map_or(9.81, |gravity| {
+        root_of_squares(&gravity.each_ref().map(|x| upper(&x.value)))
+    });
     // Each component at most as of joints without limits: of three, and of ω × v.
     let (speed, rise) = (3.0 * ROOT_3, otherwise * ROOT_3);
     let base = match snapped.base {
@@ -277,9 +267,7 @@ pub(crate) fn bound(written: &Tree, snapped: &Tree, model: &Model, options: &Opt
         base,
         ends: ends.collect(),
         efforts: efforts.collect(),
-        links: links
-            .map(|((one, other), joint)| parts(one, other, joint.kind == Kind::Prismatic))
-            .collect(),
+        links: links.collect(),
     }
 }
 

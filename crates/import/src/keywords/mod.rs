@@ -30,18 +30,14 @@ pub(crate) enum Verdict {
 
 impl Table {
     fn of(text: &'static str) -> Table {
-        let rows = text
-            .lines()
-            .skip(1)
-            .map(|line| {
-                let mut cells = line
-                    .split('\t')
-                    .map(|cell| cell.split_ascii_whitespace().collect());
-                let mut cell = || cells.next().unwrap_or_default();
-                let (elements, names) = (cell(), [cell(), cell(), cell()]);
-                Row { elements, names }
-            })
-            .collect();
+        let words = |cell: &'static str| Vec::from_iter(cell.split_ascii_whitespace());
+        let rows = text.lines().skip(1).map(|line| {
+            let mut cells = line.split('\t').map(words);
+            let mut cell = || cells.next().unwrap_or_default();
+            let (elements, names) = (cell(), [cell(), cell(), cell()]);
+            Row { elements, names }
+        });
+        let rows = rows.collect();
         Table { rows }
     }
 
@@ -51,17 +47,15 @@ impl Table {
             parent => parent,
         };
         let placed = format!("{parent}/{tag}");
-        self.rows
-            .iter()
-            .find(|row| row.elements.contains(&&*placed))
+        let mut rows = self.rows.iter();
+        rows.find(|row| row.elements.contains(&&*placed))
     }
 
     /// Returns the row of an element whose parent is not known.
     pub(crate) fn row_of(&self, tag: &str) -> Option<&Row> {
         let is_of = |element: &str| element.rsplit('/').next() == Some(tag);
-        self.rows
-            .iter()
-            .find(|row| row.elements.iter().any(|element| is_of(element)))
+        let mut rows = self.rows.iter();
+        rows.find(|row| row.elements.iter().any(|element| is_of(element)))
     }
 }
 
@@ -99,12 +93,10 @@ mod tests {
     fn read_all(folder: &Path) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            let ending = path.extension().unwrap_or_default();
             if path.is_dir() {
                 read_all(&path);
-            } else if path
-                .extension()
-                .is_some_and(|ending| ending == "xml" || ending == "urdf")
-            {
+            } else if ending == "xml" || ending == "urdf" {
                 let text = open_text(&path).unwrap();
                 read_model(&text, &Options::default(), &mut Problems::of(&text));
             }
@@ -149,10 +141,8 @@ mod tests {
             for row in &table.rows {
                 for name in &row.names[1] {
                     let (parent, tag) = row.elements[0].split_once('/').unwrap();
-                    let inside = match name
-                        .strip_prefix('<')
-                        .and_then(|name| name.strip_suffix('>'))
-                    {
+                    let inside = name.strip_prefix('<');
+                    let inside = match inside.and_then(|name| name.strip_suffix('>')) {
                         Some(name) => format!("<{tag}><{name}>7.25</{name}></{tag}>"),
                         None if *name == "*" => format!("<{tag}/>"),
                         None => format!("<{tag} {name}='7.25'/>"),
@@ -169,10 +159,9 @@ mod tests {
                     let root = text.elements(&mut problems).unwrap();
                     Reader::new(&mut problems, table).check(above, &root, "it");
                     let said = problems.finish().unwrap_or_else(|errors| errors.0);
-                    let word = if *name == "*" {
-                        tag
-                    } else {
-                        name.trim_matches(['<', '>'])
+                    let word = match *name {
+                        "*" => tag,
+                        name => name.trim_matches(['<', '>']),
                     };
                     let names = said.iter().any(|said| said.message.contains(word));
                     assert!(names, "{tag} {name}: {said:?}");

@@ -30,9 +30,9 @@ pub(super) fn filled(root: &Element, reader: &mut Reader) -> Element {
         inner(top, &values, &mut classes, reader);
     }
     let main = classes[MAIN].clone();
-    names
-        .into_iter()
-        .for_each(|name| drop(classes.insert(name.to_owned(), main.clone())));
+    for name in names {
+        classes.insert(name.to_owned(), main.clone());
+    }
     let mut root = root.clone();
     root.inside.retain(|part| part.tag != "default");
     fill(&mut root, "", &main, &classes, reader);
@@ -66,7 +66,7 @@ fn inner(outer: &Element, around: &Values, classes: &mut Classes, reader: &mut R
         inner(class, &values, classes, reader);
         if !name.is_empty() && classes.insert(name.clone(), values).is_some() {
             let help = "each class has its settings in one place: give it another name";
-            reader.say("twice", &at, &[&"class", &name, &help]);
+            reader.report("twice", &at, &[&"class", &name, &help]);
         }
     }
 }
@@ -104,24 +104,18 @@ fn fill(
         let defaults = classes.get(&class.value);
         if defaults.is_none() {
             let help = instead(&class.value, classes.keys());
-            reader.say("no_class", &class.at, &[&class.value, &help]);
+            reader.report("no_class", &class.at, &[&class.value, &help]);
         }
         defaults
     };
     let kind = kind(parent, &element.tag);
     let values = kind.and_then(|_| named("class")).unwrap_or(around);
     let has_children = matches!(element.tag.as_str(), "body" | "frame" | "worldbody");
-    let inside = has_children
-        .then(|| named("childclass"))
-        .flatten()
-        .unwrap_or(around);
-    let more: Vec<Attribute> = kind
-        .and_then(|kind| values.get(kind))
-        .into_iter()
-        .flatten()
-        .filter(|value| !has(element, value))
-        .cloned()
-        .collect();
+    let child_class = has_children.then(|| named("childclass")).flatten();
+    let inside = child_class.unwrap_or(around);
+    let of_class = kind.and_then(|kind| values.get(kind)).into_iter();
+    let missing = of_class.flatten().filter(|value| !has(element, value));
+    let more: Vec<Attribute> = missing.cloned().collect();
     element.attributes.extend(more);
     for below in &mut element.inside {
         fill(below, &element.tag, inside, classes, reader);

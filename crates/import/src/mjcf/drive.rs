@@ -24,51 +24,41 @@ impl Mjcf<'_, '_, '_> {
             let at = self.model.joints[joint].at.clone();
             let around = self.reader.problems.enter(&at);
             self.reader.check("actuator", element, &of);
-            let gear = self
-                .reader
-                .first(element, "gear")
-                .unwrap_or_else(|| Number::constant("1", &element.at))
-                .map(|value| value * coefficient);
-            let force = self
-                .force(element)
-                .map(|force| force.map(|value| value * gear.value.abs()))
-                .filter(|force| force.value.is_positive());
+            let first = self.reader.first(element, "gear");
+            let number = first.unwrap_or_else(|| Number::constant("1", &element.at));
+            let gear = number.map(|value| value * coefficient);
+            let before_gear = self.force(element);
+            let geared = before_gear.map(|force| force.map(|value| value * gear.value.abs()));
+            let force = geared.filter(|force| force.value.is_positive());
             let limit = match limits.remove(&joint) {
                 None => force,
                 // One without a limit leaves none.
-                Some(before) => before
-                    .zip(force)
-                    .map(|(before, force)| added(Some(before), force)),
+                Some(before) => before.and_then(|before| Some(added(Some(before), force?))),
             };
             limits.insert(joint, limit);
             self.rotor(element, joint, gear, &of);
             let input = element.value("input");
             if element.tag == "dcmotor" && input == Some("none") {
-                self.reader.say("brake", &element.at, &[&of]);
+                self.reader.report("brake", &element.at, &[&of]);
             }
             self.reader.problems.leave(around);
         }
         for (joint, limit) in limits {
-            let Some(limit) = limit else {
-                continue;
-            };
             let joint = &mut self.model.joints[joint];
-            joint.effort = least([Some(limit), joint.effort.take()]);
+            if limit.is_some() {
+                joint.effort = least([limit, joint.effort.take()]);
+            }
         }
     }
 
     /// Returns the joint that an actuator drives, and how far its tendon goes with the joint.
     fn driven(&mut self, element: &Element, tendons: &Tendons) -> Option<(usize, Rational)> {
-        let targets: Vec<&Attribute> = ["joint", "jointinparent", "tendon"]
-            .map(|key| element.get(key))
-            .into_iter()
-            .flatten()
-            .collect();
+        let attributes = ["joint", "jointinparent", "tendon"].map(|key| element.get(key));
+        let targets: Vec<&Attribute> = attributes.into_iter().flatten().collect();
         let [target] = targets[..] else {
             let second = targets.get(1)?;
-            return self
-                .reader
-                .refuse("two_targets", &second.at, &[&element.tag]);
+            let reader = &mut *self.reader;
+            return reader.refuse("two_targets", &second.at, &[&element.tag]);
         };
         if target.key != "tendon" {
             let joint = self.joint_named(&target.value, &target.at)?;

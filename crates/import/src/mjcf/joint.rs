@@ -8,7 +8,7 @@ use num_traits::{Signed, Zero};
 
 use super::Mjcf;
 use super::world::Item;
-use crate::model::{Joint, Kind, Number, Value};
+use crate::model::{Joint, Kind, Number, Value, or_zero};
 use crate::orientation::Pose;
 use crate::text::Span;
 use crate::xml::Element;
@@ -31,24 +31,22 @@ impl Mjcf<'_, '_, '_> {
         if element.tag == "freejoint" {
             self.reader.problems.leave(around);
             let kind = Kind::Floating;
+            let fixed = fixed(["", ""], &element.at, at);
             return (
                 Joint {
                     name,
                     kind,
-                    ..fixed(["", ""], &element.at, at)
+                    ..fixed
                 },
                 none,
             );
         }
-        let kind = self
-            .reader
-            .word(element, "type", &KINDS)
-            .unwrap_or(Kind::Revolute);
-        let axis = self
-            .reader
-            .numbers(element, "axis")
-            .unwrap_or_else(|| Number::constants(["0", "0", "1"], &element.at));
-        let (axis, pos) = (frame.rotate(&axis), self.reader.vector(element, "pos"));
+        let word = self.reader.word(element, "type", &KINDS);
+        let kind = word.unwrap_or(Kind::Revolute);
+        let numbers = self.reader.numbers(element, "axis");
+        let up = || Number::constants(["0", "0", "1"], &element.at);
+        let axis = frame.rotate(&numbers.unwrap_or_else(up));
+        let pos = self.reader.vector(element, "pos");
         let anchor = match kind {
             // The place of a slide has no effect.
             Kind::Prismatic | Kind::Floating => none,
@@ -56,8 +54,9 @@ impl Mjcf<'_, '_, '_> {
         };
         let along = direction(&axis.each_ref().map(|x| x.value.clone()));
         if along.is_none() && kind.has_one_axis() {
+            let help = "axis=\"0 0 1\"";
             self.reader
-                .say("no_direction", &axis[0].at, &[&name, &"axis=\"0 0 1\""]);
+                .report("no_direction", &axis[0].at, &[&name, &help]);
         }
         let along = along.unwrap_or([(); 3].map(|()| Wide::zero()));
         let place = at.shift(&anchor);
@@ -71,7 +70,7 @@ impl Mjcf<'_, '_, '_> {
                 let back = along.map(|x| x.to_rational() * -&zero.value);
                 (place.shift(&back), zero.value)
             }
-            (zero, _) => (place, zero.map_or_else(Rational::zero, |zero| zero.value)),
+            (zero, _) => (place, or_zero(zero)),
         };
         let [armature, damping] = self.loads(element, &of);
         let friction = self.reader.number(element, "frictionloss");
@@ -93,7 +92,7 @@ impl Mjcf<'_, '_, '_> {
             damping,
             friction: friction.filter(|_| !off("frictionloss")),
             spring: spring.filter(|spring| !spring.value.is_zero() && !off("spring")),
-            armature: armature.map_or_else(Rational::zero, |armature| armature.value),
+            armature: or_zero(armature),
             ..fixed(["", ""], &element.at, at)
         };
         (joint, anchor)
@@ -113,19 +112,16 @@ impl Mjcf<'_, '_, '_> {
     }
 
     fn in_units(&self, kind: Kind, end: Number) -> Value<Position> {
-        let unit = match kind {
-            Kind::Revolute if self.settings.degrees => "deg",
-            _ => "",
-        };
-        let value = match kind {
-            Kind::Prismatic => Position::Length(end.value.clone()),
-            _ => Position::Angle(self.angle(&end)),
+        let (value, unit) = match kind {
+            Kind::Prismatic => (Position::Length(end.value.clone()), ""),
+            Kind::Revolute if self.settings.degrees => (Position::Angle(self.angle(&end)), "deg"),
+            _ => (Position::Angle(self.angle(&end)), ""),
         };
         Value::new(value, format!("{}{unit}", end.text), &end.at)
     }
 }
 
-pub(super) fn fixed([parent, child]: [&str; 2], at: &Span, pose: &Pose) -> Joint {
-    let end = |name: &str| (name.to_owned(), at.clone());
-    Joint::fixed(end(parent), end(child), at, pose.origin())
+pub(super) fn fixed(ends: [&str; 2], at: &Span, pose: &Pose) -> Joint {
+    let ends = ends.map(|name| (name.to_owned(), at.clone()));
+    Joint::fixed(ends, at, pose.origin())
 }

@@ -8,7 +8,8 @@ use num_traits::{One, Signed, Zero};
 use super::Mjcf;
 use super::settings::FromGeoms;
 use super::world::Item;
-use crate::model::{Inertial, Link, Number};
+use crate::model::{Inertial, Link, Number, or_zero};
+use crate::xml::Element;
 
 /// Shapes whose volume is known, with the sizes that they have.
 const SHAPES: [(&str, usize); 5] = [
@@ -18,13 +19,6 @@ const SHAPES: [(&str, usize); 5] = [
     ("ellipsoid", 3),
     ("box", 3),
 ];
-
-enum Weight {
-    Nothing,
-    Something(Box<Inertial>),
-    /// The mass of a mesh, or of an unreadable shape.
-    Unknown,
-}
 
 impl Mjcf<'_, '_, '_> {
     /// Reads the mass of a body into its link, and returns that of its shapes.
@@ -37,7 +31,7 @@ impl Mjcf<'_, '_, '_> {
         let inertial = of("inertial").next();
         if let Some(second) = of("inertial").nth(1) {
             self.reader
-                .say("second", &second.element.at, &[&"inertial"]);
+                .report("second", &second.element.at, &[&"inertial"]);
         }
         link.inertial = inertial.and_then(|item| self.inertial(item, &link.name));
         let geoms: Vec<&Item> = match self.settings.from_geoms {
@@ -46,20 +40,22 @@ impl Mjcf<'_, '_, '_> {
             _ => of("geom").collect(),
         };
         let mut solids = Vec::new();
-        for geom in &geoms {
-            let at = &geom.element.at;
-            match (self.weight(geom), geom.element.get("mesh")) {
-                (Weight::Nothing, _) => continue,
-                (Weight::Something(solid), _) => {
-                    solids.push(*solid);
-                    continue;
-                }
-                (Weight::Unknown, Some(mesh)) => {
-                    self.reader.say("mass_of_mesh", at, &[&named, &mesh.value]);
-                }
-                (Weight::Unknown, None) => self.reader.say("mass_of_geoms", at, &[&named]),
+        for geom in geoms {
+            let Some((key, amount)) = self.amount(geom.element) else {
+                continue;
+            };
+            if let Some(solid) = self.solid(geom, key, amount) {
+                solids.push(solid);
+                continue;
             }
+            // The mass of a mesh, or of an unreadable shape.
             link.has_unknown_mass = true;
+            let at = &geom.element.at;
+            let reader = &mut *self.reader;
+            match geom.element.get("mesh") {
+                Some(mesh) => reader.report("mass_of_mesh", at, &[&named, &mesh.value]),
+                None => reader.report("mass_of_geoms", at, &[&named]),
+            }
         }
         if !solids.is_empty() || link.has_unknown_mass {
             // The shapes replace the `inertial`.
@@ -74,49 +70,41 @@ impl Mjcf<'_, '_, '_> {
         let mass = self.reader.required_number(element, "mass");
         let full = element.get("fullinertia");
         if let (Some(full), Some(_)) = (full, element.get("diaginertia")) {
-            self.reader.say("two_inertias", &full.at, &[&body]);
+            self.reader.report("two_inertias", &full.at, &[&body]);
         }
-        let inertia = match full {
+        let [xx, yy, zz, xy, xz, yz] = match full {
+            Some(_) => self.reader.numbers(element, "fullinertia")?,
             None => {
                 let [xx, yy, zz] = self.reader.vector(element, "diaginertia");
-                let [xy, yz, xz] = Number::constants(["0", "0", "0"], &element.at);
-                [xx, yy, zz, xy, yz, xz]
-            }
-            Some(_) => {
-                let [xx, yy, zz, xy, xz, yz] = self.reader.numbers(element, "fullinertia")?;
-                [xx, yy, zz, xy, yz, xz]
+                let [xy, xz, yz] = Number::constants(["0", "0", "0"], &element.at);
+                [xx, yy, zz, xy, xz, yz]
             }
         };
-        let what = format!("the mass of body `{body}`");
-        self.reader
-            .not_negative(Some(&mass), &what, "a mass is zero or more, in kg");
+        let (what, help) = (
+            format!("the mass of body `{body}`"),
+            "a mass is zero or more, in kg",
+        );
+        self.reader.not_negative(Some(&mass), &what, help);
         Some(Inertial {
             origin: frame.then(&at).origin(),
             mass,
-            inertia: Inertia::of(inertia),
+            inertia: Inertia::of([xx, yy, zz, xy, yz, xz]),
         })
     }
 
-    fn weight(&mut self, item: &Item) -> Weight {
-        let element = item.element;
+    /// Reads the mass or the density of a geom, with its key, unless the geom weighs nothing.
+    fn amount(&mut self, element: &Element) -> Option<(&'static str, Option<Number>)> {
         let [low, high] = &self.settings.groups;
-        let group = self
-            .reader
-            .number(element, "group")
-            .map_or_else(Rational::zero, |group| group.value);
-        let key = if element.get("mass").is_some() {
-            "mass"
-        } else {
-            "density"
+        let group = or_zero(self.reader.number(element, "group"));
+        let key = match element.get("mass") {
+            Some(_) => "mass",
+            None => "density",
         };
         let amount = self.reader.number(element, key);
         let is_nothing = amount.as_ref().is_some_and(|number| number.value.is_zero());
         let is_flat = matches!(element.value("type"), Some("plane" | "hfield"));
-        if is_nothing || is_flat || !(low..=high).contains(&&group) {
-            return Weight::Nothing;
-        }
-        let solid = self.solid(item, key, amount);
-        solid.map_or(Weight::Unknown, |solid| Weight::Something(Box::new(solid)))
+        let weighs = !is_nothing && !is_flat && (low..=high).contains(&&group);
+        weighs.then_some((key, amount))
     }
 
     fn solid(&mut self, item: &Item, key: &str, amount: Option<Number>) -> Option<Inertial> {
@@ -151,10 +139,7 @@ impl Mjcf<'_, '_, '_> {
             "mass" => amount.value.clone(),
             _ => rounded(&(&amount.value * volume)),
         };
-        let number = |value: Rational| Number {
-            value,
-            ..amount.clone()
-        };
+        let number = |value: Rational| amount.clone().map(|_| value);
         let [xx, yy, zz] = moments.map(|moment| number(rounded(&(moment * &mass))));
         let zero = Number::constant("0", &element.at);
         Some(Inertial {
@@ -170,14 +155,11 @@ impl Mjcf<'_, '_, '_> {
 fn moments(shape: &str, sizes: &[Rational]) -> (Rational, [Rational; 3]) {
     let pi = Angle::PiTimes(Rational::one()).radians();
     let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());
-    let [a, b, c] = [0, 1, 2].map(|i| sizes.get(i).cloned().unwrap_or_else(Rational::zero));
+    // A sphere has one size, and is an ellipsoid with that in all directions.
+    let size = |i: usize| sizes.get(i).or(sizes.first()).cloned();
+    let [a, b, c] = [0, 1, 2].map(|i| size(i).unwrap_or_default());
     let square = |x: &Rational| x * x;
     match shape {
-        "sphere" => {
-            let moment = ratio(2, 5) * square(&a);
-            let volume = ratio(4, 3) * pi * square(&a) * &a;
-            (volume, [moment.clone(), moment.clone(), moment])
-        }
         "capsule" => {
             // A cylinder of length h, and two halves of a sphere.
             let h = &b * ratio(2, 1);
@@ -199,7 +181,7 @@ fn moments(shape: &str, sizes: &[Rational]) -> (Rational, [Rational; 3]) {
         }
         _ => {
             let (part, volume) = match shape {
-                "ellipsoid" => (ratio(1, 5), ratio(4, 3) * pi),
+                "sphere" | "ellipsoid" => (ratio(1, 5), ratio(4, 3) * pi),
                 _ => (ratio(1, 3), ratio(8, 1)),
             };
             let squares = [&a, &b, &c].map(square);

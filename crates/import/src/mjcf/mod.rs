@@ -21,19 +21,20 @@ mod world;
 
 use std::collections::BTreeMap;
 
+use num_traits::Zero;
+
 use crate::model::{Format, Model, Number};
 use crate::read::Reader;
 use crate::xml::Element;
 pub(crate) use settings::Settings;
+use world::Names;
 
 /// The elements that take time, and the most that a robot has of them.
 const MANY: &[(&[&str], usize)] = &[
     (&["default"], 512),
     (&["body", "site", "frame", "weld", "connect"], 1024),
-    (
-        &["joint", "fixed", "spatial", "general", "motor", "position"],
-        4096,
-    ),
+    (&["joint", "fixed", "spatial"], 4096),
+    (&["general", "motor", "position"], 4096),
     (&["geom"], 8192),
 ];
 /// The parts of a file that are checked where they are read.
@@ -46,18 +47,16 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
             return None;
         }
     }
-    for (tag, few) in MANY
-        .iter()
-        .flat_map(|(tags, few)| tags.iter().map(move |tag| (tag, few)))
-    {
-        let count = root.all_inside(tag).len();
-        if !reader.are_few(&root.at, &format!("<{tag}>"), count, *few) {
-            return None;
+    for (tags, few) in MANY {
+        for tag in *tags {
+            let count = root.all_inside(tag).len();
+            if !reader.are_few(&root.at, &format!("<{tag}>"), count, *few) {
+                return None;
+            }
         }
     }
-    reader.check_attributes("", root, "the model");
     let enter = |part: &Element| !READ_APART.contains(&part.tag.as_str());
-    reader.check_inside("", root, "the model", enter);
+    reader.check_around("", root, "the model", enter);
     let root = &defaults::filled(root, reader);
     let settings = Settings::read(root, reader);
     let model = Model {
@@ -67,12 +66,12 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
         gravity: Some(settings.gravity(root)),
         ..Model::default()
     };
-    let places = BTreeMap::new();
     let mut mjcf = Mjcf {
         reader,
         settings,
         model,
-        places,
+        places: BTreeMap::new(),
+        names: Names::default(),
     };
     mjcf.world(root)?;
     mjcf.model.resolve(mjcf.reader.problems);
@@ -88,6 +87,7 @@ struct Mjcf<'r, 'p, 't> {
     model: Model,
     /// The bodies of sites and geoms: `site tip` is on one.
     places: BTreeMap<String, String>,
+    names: Names,
 }
 
 impl Mjcf<'_, '_, '_> {
@@ -95,8 +95,7 @@ impl Mjcf<'_, '_, '_> {
     fn section<'e>(&mut self, root: &'e Element, tag: &'e str) -> Vec<&'e Element> {
         let of = format!("the section <{tag}>");
         for part in root.all(tag) {
-            self.reader.check_attributes("mujoco", part, &of);
-            self.reader.check_inside("mujoco", part, &of, |_| false);
+            self.reader.check_around("mujoco", part, &of, |_| false);
         }
         root.all(tag).flat_map(|part| &part.inside).collect()
     }
@@ -116,32 +115,25 @@ impl Mjcf<'_, '_, '_> {
     fn first_term(&mut self, element: &Element, key: &str, of: &str) -> Option<Number> {
         let attribute = element.get(key)?;
         let terms = self.reader.list(attribute)?;
-        if terms
-            .iter()
-            .skip(1)
-            .any(|term| term.value != Default::default())
-        {
+        if terms.iter().skip(1).any(|term| !term.value.is_zero()) {
             let words: [&dyn std::fmt::Display; 3] = [&key, &of, &attribute.value];
-            self.reader.say("polynomial", &attribute.at, &words);
+            self.reader.report("polynomial", &attribute.at, &words);
         }
         terms.into_iter().next()
     }
 
-    /// Reads the armature and the damping of an element.
     fn loads(&mut self, element: &Element, of: &str) -> [Option<Number>; 2] {
         let armature = self.reader.number(element, "armature");
         let damping = self.first_term(element, "damping", of);
         self.not_negative("armature", &armature, of);
         self.not_negative("damping", &damping, of);
-        [
-            armature,
-            damping.filter(|_| !self.settings.is_off("damper")),
-        ]
+        let is_off = self.settings.is_off("damper");
+        [armature, damping.filter(|_| !is_off)]
     }
 
     fn not_negative(&mut self, key: &str, load: &Option<Number>, of: &str) {
+        let what = format!("the {key} of {of}");
         let help = "it adds inertia or takes energy out: zero or more";
-        self.reader
-            .not_negative(load.as_ref(), &format!("the {key} of {of}"), help);
+        self.reader.not_negative(load.as_ref(), &what, help);
     }
 }

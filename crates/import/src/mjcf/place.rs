@@ -26,32 +26,21 @@ impl Mjcf<'_, '_, '_> {
 
     /// Reads an orientation with its place; the identity where there is none or a mistake.
     fn orientation(&mut self, element: &Element) -> (Both, Span) {
-        let orientations: Vec<&Attribute> = ORIENTATIONS
-            .into_iter()
-            .filter_map(|key| element.get(key))
-            .collect();
+        let attributes = ORIENTATIONS.into_iter().filter_map(|key| element.get(key));
+        let orientations: Vec<&Attribute> = attributes.collect();
         let Some(Attribute { key, at, .. }) = orientations.first() else {
             return (both_identities(), element.at.clone());
         };
         if let Some(second) = orientations.get(1) {
-            let keys = orientations
-                .iter()
-                .map(|orientation| orientation.key.as_str())
-                .collect::<Vec<&str>>()
-                .join("` and `");
-            self.reader.say("two_orientations", &second.at, &[&keys]);
+            let key = |orientation: &&Attribute| orientation.key.clone();
+            let keys = Vec::from_iter(orientations.iter().map(key)).join("` and `");
+            self.reader.report("two_orientations", &second.at, &[&keys]);
         }
         let reader = &mut *self.reader;
         let rotation = match key.as_str() {
-            "quat" => reader
-                .numbers(element, key)
-                .map(|numbers| of_quaternion(&numbers)),
-            "xyaxes" => reader
-                .numbers(element, key)
-                .map(|numbers| of_axes(&numbers)),
-            "zaxis" => reader
-                .numbers(element, key)
-                .map(|numbers| of_third_axis(&numbers)),
+            "quat" => reader.numbers(element, key).map(of_quaternion),
+            "xyaxes" => reader.numbers(element, key).map(of_axes),
+            "zaxis" => reader.numbers(element, key).map(of_third_axis),
             "euler" => {
                 let angles = reader.numbers(element, key);
                 angles.map(|angles| Some(self.of_angles(&angles)))
@@ -62,12 +51,10 @@ impl Mjcf<'_, '_, '_> {
             }
         };
         if let Some(None) = rotation {
-            self.reader.say("orientation_of_zero", at, &[key]);
+            self.reader.report("orientation_of_zero", at, &[key]);
         }
-        (
-            rotation.flatten().unwrap_or_else(both_identities),
-            at.clone(),
-        )
+        let rotation = rotation.flatten().unwrap_or_else(both_identities);
+        (rotation, at.clone())
     }
 
     /// Returns the middle between the ends of a `fromto`, with z along it in a direction (1: to
@@ -79,7 +66,7 @@ impl Mjcf<'_, '_, '_> {
         let along = [0, 1, 2].map(|i| (&to[i].value - &from[i].value) * &sign);
         let middle = [0, 1, 2].map(|i| (&from[i].value + &to[i].value) / &two);
         let whole = length(&along.each_ref().map(Wide::from_rational)).to_rational();
-        let along = of_third_axis(&along.map(|x| Value::new(x, "", &element.at)))?;
+        let along = of_third_axis(along.map(|x| Value::new(x, "", &element.at)))?;
         let zeros = Number::constants(["0", "0", "0"], &element.at);
         let turned = Pose::of(zeros, along, &element.at);
         let at = Pose::identity(element.at.clone()).shift(&middle);

@@ -16,7 +16,6 @@ pub(crate) struct Settings {
     /// The lowest and the highest group of geoms that have mass.
     pub(super) groups: [Rational; 2],
     pub(super) bounds: Bounds,
-    /// The flags that are switched off.
     off: Vec<&'static str>,
     gravity: Option<[Number; 3]>,
 }
@@ -76,10 +75,10 @@ impl Settings {
     pub(crate) fn of_urdf(root: &Element, reader: &mut Reader) -> (Bounds, Option<[Number; 3]>) {
         let settings = Settings::read(root, reader);
         for flag in settings.off.iter().filter(|flag| **flag != "gravity") {
-            reader.say("flag_off", &root.at, &[flag]);
+            reader.report("flag_off", &root.at, &[flag]);
         }
         if settings.from_geoms == FromGeoms::All {
-            reader.say("compiler inertiafromgeom", &root.at, &[]);
+            reader.report("compiler inertiafromgeom", &root.at, &[]);
         }
         let is_said = settings.gravity.is_some() || settings.is_off("gravity");
         let gravity = is_said.then(|| settings.gravity(root));
@@ -106,7 +105,7 @@ impl Settings {
         self.degrees = is("angle", ["radian", "degree"], self.degrees);
         self.auto_limits = is("autolimits", ["false", "true"], self.auto_limits);
         if is("coordinate", ["local", "global"], false) {
-            reader.say("global", &element.at, &[]);
+            reader.report("global", &element.at, &[]);
         }
         let from_geoms = reader.word(element, "inertiafromgeom", &FROM_GEOMS);
         self.from_geoms = from_geoms.unwrap_or(self.from_geoms);
@@ -116,12 +115,10 @@ impl Settings {
                 let stays = letter.is_ascii_uppercase();
                 Some(Turn { axis, stays })
             });
-            match turns
-                .collect::<Option<Vec<_>>>()
-                .and_then(|turns| turns.try_into().ok())
-            {
+            let turns: Option<Vec<Turn>> = turns.collect();
+            match turns.and_then(|turns| turns.try_into().ok()) {
                 Some(turns) => self.euler = turns,
-                None => reader.say("eulerseq", &order.at, &[&order.value]),
+                None => reader.report("eulerseq", &order.at, &[&order.value]),
             }
         }
         self.bounds.read(element, reader);
@@ -142,12 +139,10 @@ impl Settings {
             }
         }
         for key in ["density", "viscosity"] {
-            let medium = reader
-                .number(element, key)
-                .filter(|medium| !medium.value.is_zero());
-            medium
-                .iter()
-                .for_each(|medium| reader.say("medium", &medium.at, &[&key]));
+            let medium = reader.number(element, key);
+            if let Some(medium) = medium.filter(|medium| !medium.value.is_zero()) {
+                reader.report("medium", &medium.at, &[&key]);
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use dalembert_model::robot::values::number;
 use num_traits::{One, Signed, Zero};
 
 use super::Mjcf;
-use crate::model::{Ends, Kind, Mimic, Tie, Value};
+use crate::model::{Ends, Kind, Mimic, Tie, Value, or_zero};
 use crate::problems::instead;
 use crate::select::position::compare;
 use crate::text::Span;
@@ -45,11 +45,9 @@ impl Mjcf<'_, '_, '_> {
             tendons.extend(name.map(|name| (name, over)));
         }
         for element in self.section(root, "equality") {
-            let kind = format!("equality `{}`", element.tag);
-            let of = element.named(if element.tag == "joint" {
-                "equality"
-            } else {
-                &kind
+            let of = element.named(&match element.tag.as_str() {
+                "joint" => "equality".to_owned(),
+                tag => format!("equality `{tag}`"),
             });
             self.reader.check("equality", element, &of);
             let words = [("true", true), ("false", false)];
@@ -62,10 +60,7 @@ impl Mjcf<'_, '_, '_> {
                 "connect" | "weld" => Some(self.links_tied(element)),
                 "tendon" => {
                     let names = ["tendon1", "tendon2"].map(|key| element.value(key));
-                    let over = names
-                        .into_iter()
-                        .flatten()
-                        .filter_map(|name| tendons.get(name));
+                    let over = names.iter().flatten().filter_map(|name| tendons.get(*name));
                     Some(self.joints_tied(&over.flatten().cloned().collect::<Vec<_>>()))
                 }
                 _ => None,
@@ -82,10 +77,8 @@ impl Mjcf<'_, '_, '_> {
     }
 
     fn joints_tied(&self, over: &[(usize, Rational)]) -> Ends {
-        let joints = over
-            .iter()
-            .map(|(joint, _)| self.model.joints[*joint].name.clone());
-        Ends::Joints(joints.collect())
+        let name = |(joint, _): &(usize, Rational)| self.model.joints[*joint].name.clone();
+        Ends::Joints(over.iter().map(name).collect())
     }
 
     fn links_tied(&self, element: &Element) -> Ends {
@@ -100,17 +93,13 @@ impl Mjcf<'_, '_, '_> {
 
     /// Returns the bodies that a spatial tendon runs over.
     fn path(&self, element: &Element) -> Ends {
-        let names = element.inside.iter().flat_map(|part| {
-            let named = ["site", "sidesite", "geom"].map(|key| (key, part.value(key)));
-            named
-                .into_iter()
-                .filter_map(|(key, name)| Some((key, name?)))
-        });
-        let bodies = names.map(|(key, name)| {
-            let kind = if key == "geom" { "geom" } else { "site" };
-            self.body_of(kind, name)
-        });
-        Ends::Links(bodies.collect())
+        let mut bodies = Vec::new();
+        for part in &element.inside {
+            for (key, kind) in [("site", "site"), ("sidesite", "site"), ("geom", "geom")] {
+                bodies.extend(part.value(key).map(|name| self.body_of(kind, name)));
+            }
+        }
+        Ends::Links(bodies)
     }
 
     fn body_of(&self, kind: &str, name: &str) -> String {
@@ -118,7 +107,6 @@ impl Mjcf<'_, '_, '_> {
         body.map_or("world", String::as_str).to_owned()
     }
 
-    /// Reads the joints of a fixed tendon.
     fn over(&mut self, element: &Element) -> Vec<(usize, Rational)> {
         let over = element.all("joint").filter_map(|path| {
             let (name, at) = self.reader.required(path, "joint");
@@ -135,15 +123,14 @@ impl Mjcf<'_, '_, '_> {
         let of = format!("the tendon over joint `{name}`");
         let [armature, damping] = self.loads(element, &of);
         for key in ["stiffness", "frictionloss"] {
-            let terms = element
-                .get(key)
-                .and_then(|attribute| self.reader.list(attribute));
+            let attribute = element.get(key);
+            let terms = attribute.and_then(|attribute| self.reader.list(attribute));
             if terms.is_some_and(|terms| terms.iter().any(|term| !term.value.is_zero())) {
-                self.reader.say("of_tendon", &element.at, &[&key, &name]);
+                self.reader.report("of_tendon", &element.at, &[&key, &name]);
             }
         }
         let tied = &mut self.model.joints[joint];
-        tied.armature += armature.map_or_else(Rational::zero, |armature| armature.value) * by * by;
+        tied.armature += or_zero(armature) * by * by;
         tied.add_damping(damping, by);
         let Some(mut range) = range.filter(|_| !by.is_zero()) else {
             return;
@@ -153,10 +140,9 @@ impl Mjcf<'_, '_, '_> {
         }
         let [low, high] = range.map(|end| {
             let value = end.value / by;
-            let text = if by.is_one() {
-                end.text
-            } else {
-                number(&value)
+            let text = match by.is_one() {
+                true => end.text,
+                false => number(&value),
             };
             Value::new(tied.kind.position(value), text, &end.at)
         });
@@ -169,7 +155,7 @@ impl Mjcf<'_, '_, '_> {
         }
         if compare(&position[0].value, &position[1].value).is_gt() {
             self.reader
-                .say("tendon_leaves_nothing", &element.at, &[&name]);
+                .report("tendon_leaves_nothing", &element.at, &[&name]);
         }
         tied.position = Some(position);
     }
@@ -180,7 +166,7 @@ impl Mjcf<'_, '_, '_> {
         if place.is_none() {
             let moving = joints().filter(|joint| joint.kind != Kind::Fixed);
             let help = instead(name, moving.map(|joint| &joint.name));
-            self.reader.say("no_joint", at, &[&name, &help]);
+            self.reader.report("no_joint", at, &[&name, &help]);
         }
         place
     }

@@ -8,7 +8,7 @@ use num_traits::Zero;
 use super::Mjcf;
 use super::joint::fixed;
 use crate::bounds::massless;
-use crate::model::{Joint, Kind, Link, MAX_LINKS, Role};
+use crate::model::{Inertial, Joint, Kind, Link, MAX_LINKS, Role};
 use crate::orientation::Pose;
 use crate::problems::mass_part;
 use crate::text::Span;
@@ -26,7 +26,6 @@ const READ_APART: [&str; 7] = [
     "inertial",
 ];
 
-/// An element of a body.
 pub(super) struct Item<'e> {
     pub(super) element: &'e Element,
     /// The pose of the frames around it, in the body.
@@ -34,7 +33,8 @@ pub(super) struct Item<'e> {
 }
 
 /// The names that are taken.
-struct Names {
+#[derive(Default)]
+pub(super) struct Names {
     links: BTreeSet<String>,
     joints: BTreeSet<String>,
 }
@@ -52,43 +52,35 @@ fn fresh(names: &mut BTreeSet<String>, wish: String) -> String {
 impl Mjcf<'_, '_, '_> {
     pub(super) fn world(&mut self, root: &Element) -> Option<()> {
         let at = root.at.clone();
-        self.model.links.push(link("world".to_owned(), &at));
+        self.model.links.push(Link::new("world".to_owned(), &at));
         let names = |tags: &[&'static str]| {
             let elements = tags.iter().flat_map(|tag| root.all_inside(tag));
             let names = elements.filter_map(|element| element.value("name"));
             names.map(str::to_owned).collect::<BTreeSet<String>>()
         };
         // Names that the file gives are not given to elements without one.
-        let mut names = Names {
-            links: names(&["body"]),
-            joints: names(&["joint", "freejoint"]),
-        };
-        names.links.insert("world".to_owned());
+        self.names.links = names(&["body"]);
+        self.names.joints = names(&["joint", "freejoint"]);
+        self.names.links.insert("world".to_owned());
         let (mut open, mut made) = (Vec::new(), Vec::new());
         for part in root.all("worldbody") {
-            self.reader.check_attributes("mujoco", part, "the world");
-            self.reader
-                .check_inside("mujoco", part, "the world", is_apart_from_bodies);
+            let enter = is_apart_from_bodies;
+            self.reader.check_around("mujoco", part, "the world", enter);
             let items = self.items(part);
             self.keep_places(&items, "world");
-            made.extend(
-                items
-                    .iter()
-                    .filter(|item| is_made_elsewhere(item))
-                    .map(|item| item.element),
-            );
+            let elsewhere = items.iter().filter(|item| is_made_elsewhere(item));
+            made.extend(elsewhere.map(|item| item.element));
             open.extend(bodies(items, "world"));
         }
-        let id = if open.is_empty() {
-            "made_for_all"
-        } else {
-            "made_elsewhere"
+        let id = match open.is_empty() {
+            true => "made_for_all",
+            false => "made_elsewhere",
         };
         made.iter()
-            .for_each(|made| self.reader.say(id, &made.at, &[&made.tag]));
+            .for_each(|made| self.reader.report(id, &made.at, &[&made.tag]));
         open.reverse();
         while let Some((item, on)) = open.pop() {
-            let inside = self.body(&item, on, &mut names);
+            let inside = self.body(&item, on);
             open.extend(inside.into_iter().rev());
             let (what, count) = ("bodies, sites and weights", self.model.links.len());
             if !self.reader.are_few(&at, what, count, MAX_LINKS) {
@@ -98,29 +90,19 @@ impl Mjcf<'_, '_, '_> {
         if self.model.links.len() == 1 {
             return self.reader.refuse("no_bodies", &at, &[]);
         }
-        self.say_weightless(root);
+        let bodies = root.all_inside("body").into_iter();
+        let mut held: Vec<_> = bodies.filter_map(|body| body.get("gravcomp")).collect();
+        held.retain(|part| part.value.trim().parse() != Ok(0.0));
+        if let Some(first) = held.first() {
+            self.reader.report("weightless", &first.at, &[&held.len()]);
+        }
         let links = self.model.links.iter().map(|link| (&link.name, &link.at));
         self.reader.unique("body", links);
-        let moving = self
-            .model
-            .joints
-            .iter()
-            .filter(|joint| joint.kind != Kind::Fixed);
-        self.reader
-            .unique("joint", moving.map(|joint| (&joint.name, &joint.at)));
+        let joints = self.model.joints.iter();
+        let movers = joints.filter(|joint| joint.kind != Kind::Fixed);
+        let moving = movers.map(|joint| (&joint.name, &joint.at));
+        self.reader.unique("joint", moving);
         Some(())
-    }
-
-    fn say_weightless(&mut self, root: &Element) {
-        let held: Vec<_> = root
-            .all_inside("body")
-            .into_iter()
-            .filter_map(|body| body.get("gravcomp"))
-            .filter(|part| part.value.trim().parse() != Ok(0.0))
-            .collect();
-        if let Some(first) = held.first() {
-            self.reader.say("weightless", &first.at, &[&held.len()]);
-        }
     }
 
     /// Returns the elements of a body, those inside of frames too.
@@ -140,44 +122,36 @@ impl Mjcf<'_, '_, '_> {
                 items.push(item);
                 continue;
             }
-            self.reader
-                .check_attributes("body", item.element, "a frame");
-            self.reader
-                .check_inside("body", item.element, "a frame", is_apart_from_bodies);
-            let pose = self.pose(item.element);
-            open.extend(inside(item.element, &item.frame.then(&pose)));
+            let (element, enter) = (item.element, is_apart_from_bodies);
+            self.reader.check_around("body", element, "a frame", enter);
+            let pose = self.pose(element);
+            open.extend(inside(element, &item.frame.then(&pose)));
         }
         items
     }
 
     /// Adds a body with its joints, weights and sites; returns the bodies on it.
-    fn body<'e>(
-        &mut self,
-        item: &Item<'e>,
-        on: String,
-        names: &mut Names,
-    ) -> Vec<(Item<'e>, String)> {
+    fn body<'e>(&mut self, item: &Item<'e>, on: String) -> Vec<(Item<'e>, String)> {
         let element = item.element;
         let name = match element.value("name") {
             Some(name) => name.to_owned(),
-            None => fresh(&mut names.links, "body".to_owned()),
+            None => fresh(&mut self.names.links, "body".to_owned()),
         };
         let of = format!("body `{name}`");
         let around = self.reader.problems.enter(&element.at);
-        self.reader.check_attributes("body", element, &of);
         let enter = is_apart_from_bodies;
-        self.reader.check_inside("body", element, &of, enter);
+        self.reader.check_around("body", element, &of, enter);
         let pose = item.frame.then(&self.pose(element));
         let items = self.items(element);
         self.keep_places(&items, &name);
-        let mut link = link(name.clone(), &element.at);
+        let mut link = Link::new(name.clone(), &element.at);
         // A mass matters where the body moves, its place on the way there, too.
         let place = self.reader.problems.enter(&mass_part(&element.at));
         let solids = self.mass(&items, &mut link);
         self.reader.problems.leave(place);
         for part in items.iter().filter(|item| is_made_elsewhere(item)) {
             let Element { tag, at, .. } = part.element;
-            self.reader.say("made_on_body", at, &[tag, &of]);
+            self.reader.report("made_on_body", at, &[tag, &of]);
         }
         self.reader.problems.leave(around);
         if self.settings.bounds.bound_bodies() && link.inertial.is_none() && solids.is_empty() {
@@ -185,39 +159,35 @@ impl Mjcf<'_, '_, '_> {
             link.inertial = Some(massless(self.reader.vector(element, "pos")));
         }
         self.model.links.push(link);
-        self.joints_of(&name, on, pose, &items, names);
+        self.joints_of(&name, on, pose, &items);
         let identity = Pose::identity(element.at.clone());
         for (index, solid) in solids.into_iter().enumerate() {
-            let part = fresh(&mut names.links, format!("{name}, geom {}", index + 1));
-            self.model
-                .joints
-                .push(fixed([&name, &part], &element.at, &identity));
-            self.model.links.push(Link {
-                inertial: Some(solid),
-                role: Role::Mark,
-                ..self::link(part, &element.at)
-            });
+            let part = fresh(&mut self.names.links, format!("{name}, geom {}", index + 1));
+            self.mark([&name, &part], &element.at, &identity, Some(solid));
         }
         for site in items.iter().filter(|item| item.element.tag == "site") {
-            self.site(site, &name, names);
+            self.site(site, &name);
         }
         bodies(items, &name)
     }
 
-    fn joints_of(
-        &mut self,
-        body: &str,
-        mut on: String,
-        mut at: Pose,
-        items: &[Item],
-        names: &mut Names,
-    ) {
+    /// Adds a frame or a weight that is fixed to a body.
+    fn mark(&mut self, ends: [&str; 2], at: &Span, pose: &Pose, inertial: Option<Inertial>) {
+        self.model.joints.push(fixed(ends, at, pose));
+        self.model.links.push(Link {
+            inertial,
+            role: Role::Mark,
+            ..Link::new(ends[1].to_owned(), at)
+        });
+    }
+
+    fn joints_of(&mut self, body: &str, mut on: String, mut at: Pose, items: &[Item]) {
         let is_joint = |item: &&Item| ["joint", "freejoint"].contains(&item.element.tag.as_str());
         let joints: Vec<&Item> = items.iter().filter(is_joint).collect();
         for (index, item) in joints.iter().enumerate() {
             let name = match item.element.value("name") {
                 Some(name) => name.to_owned(),
-                None => fresh(&mut names.joints, format!("{body}_joint")),
+                None => fresh(&mut self.names.joints, format!("{body}_joint")),
             };
             let (joint, anchor) = self.joint(item, name, &at);
             let back = anchor.each_ref().map(|x| -x);
@@ -226,10 +196,10 @@ impl Mjcf<'_, '_, '_> {
             let child = match is_last {
                 true => body.to_owned(),
                 false => {
-                    let name = fresh(&mut names.links, format!("{body}, {}", joint.name));
+                    let name = fresh(&mut self.names.links, format!("{body}, {}", joint.name));
                     self.model.links.push(Link {
                         role: Role::Between,
-                        ..link(name.clone(), &joint.at)
+                        ..Link::new(name.clone(), &joint.at)
                     });
                     name
                 }
@@ -249,37 +219,28 @@ impl Mjcf<'_, '_, '_> {
     }
 
     /// Adds a site with a name, unless a body has the same.
-    fn site(&mut self, item: &Item, body: &str, names: &mut Names) {
+    fn site(&mut self, item: &Item, body: &str) {
         let element = item.element;
         let around = self.reader.problems.enter(&element.at);
         self.reader.check("body", element, "a site");
-        let between = element
-            .get("fromto")
-            .and_then(|_| self.between(element, -1));
+        let between = self.between(element, -1);
         let pose = between.map_or_else(|| self.pose(element), |(pose, _)| pose);
         self.reader.problems.leave(around);
         let name = element.value("name").map(str::to_owned);
-        let Some(name) = name.filter(|name| names.links.insert(name.clone())) else {
-            return;
-        };
-        let at = item.frame.then(&pose);
-        self.model
-            .joints
-            .push(fixed([body, &name], &element.at, &at));
-        self.model.links.push(Link {
-            role: Role::Mark,
-            ..link(name, &element.at)
-        });
+        if let Some(name) = name.filter(|name| self.names.links.insert(name.clone())) {
+            let at = item.frame.then(&pose);
+            self.mark([body, &name], &element.at, &at, None);
+        }
     }
 
     /// Keeps the bodies of sites and geoms, which ties name.
     fn keep_places(&mut self, items: &[Item], body: &str) {
         let has_name = |item: &&Item| ["site", "geom"].contains(&item.element.tag.as_str());
         for element in items.iter().filter(has_name).map(|item| item.element) {
-            let name = element
-                .value("name")
-                .map(|name| format!("{} {name}", element.tag));
-            self.places.extend(name.map(|name| (name, body.to_owned())));
+            if let Some(name) = element.value("name") {
+                let name = format!("{} {name}", element.tag);
+                self.places.insert(name, body.to_owned());
+            }
         }
     }
 }
@@ -295,12 +256,4 @@ fn is_made_elsewhere(item: &Item) -> bool {
 fn bodies<'e>(items: Vec<Item<'e>>, on: &str) -> Vec<(Item<'e>, String)> {
     let bodies = items.into_iter().filter(|item| item.element.tag == "body");
     bodies.map(|item| (item, on.to_owned())).collect()
-}
-
-fn link(name: String, at: &Span) -> Link {
-    Link {
-        name,
-        at: at.clone(),
-        ..Link::default()
-    }
 }

@@ -1,4 +1,4 @@
-//! Checks of a selection, and what there is to say of it.
+//! Checks of a selection, and notes about it.
 
 use std::collections::BTreeSet;
 
@@ -20,11 +20,9 @@ impl<'m> Select<'m, '_, '_> {
                 moving.any(|leader| self.model.joints[leader].name == mimic.leader)
             });
             if let Some(Mimic { at, leader, .. }) = mimic {
-                self.problems.say(
-                    "follows_beside",
-                    at,
-                    &[&follower.name, leader, &advised(follower)],
-                );
+                let (name, advice) = (&follower.name, advised(follower));
+                self.problems
+                    .report("follows_beside", at, &[name, leader, &advice]);
             }
         }
     }
@@ -39,7 +37,7 @@ impl<'m> Select<'m, '_, '_> {
                     let tied = moving.into_iter().find(|joint| names.contains(&joint.name));
                     if let Some(joint) = tied {
                         self.problems
-                            .say("tied", at, &[&joint.name, name, &advised(joint)]);
+                            .report("tied", at, &[&joint.name, name, &advised(joint)]);
                     }
                 }
                 Ends::Links(names) => {
@@ -49,7 +47,7 @@ impl<'m> Select<'m, '_, '_> {
                     if links.iter().map(mover).collect::<BTreeSet<_>>().len() > 1 {
                         let over = self.closed_by(&links, selection).join("`, `");
                         let names = names.join("` and `");
-                        self.problems.say("loop", at, &[name, &names, &over]);
+                        self.problems.report("loop", at, &[name, &names, &over]);
                     }
                 }
             }
@@ -60,7 +58,7 @@ impl<'m> Select<'m, '_, '_> {
     fn closed_by(&self, links: &BTreeSet<Option<usize>>, selection: &Selection) -> Vec<&'m str> {
         let mut counts = vec![0; self.model.joints.len()];
         for link in links.iter().flatten() {
-            self.way(*link).for_each(|joint| counts[joint] += 1);
+            self.model.way(*link).for_each(|joint| counts[joint] += 1);
         }
         let closes = |joint: &usize| (1..links.len()).contains(&counts[*joint]);
         let moving = selection.moving().into_iter().filter(closes);
@@ -69,20 +67,17 @@ impl<'m> Select<'m, '_, '_> {
             .collect()
     }
 
-    pub(super) fn say_base(&mut self, base: usize) {
-        if self.model.above[base].is_none() {
-            return;
-        }
+    pub(super) fn report_base(&mut self, base: usize) {
         let link = &self.model.links[base];
         let how = match self.model.gravity {
             None => "to pull against its z",
             Some(_) => "in its axes as it is in the world's",
         };
         self.problems
-            .say("not_the_root", &link.at, &[&link.name, &how]);
+            .report("not_the_root", &link.at, &[&link.name, &how]);
     }
 
-    pub(super) fn say_held(&mut self, selection: &Selection) {
+    pub(super) fn report_held(&mut self, selection: &Selection) {
         let mut order = selection.order.clone();
         order.sort_unstable();
         let held: Vec<(&Joint, &Position)> = order
@@ -94,23 +89,18 @@ impl<'m> Select<'m, '_, '_> {
             .collect();
         if let Some((first, _)) = held.first() {
             let name = |(joint, at): &(&Joint, &Position)| {
-                format!(
-                    "`{}` at {}",
-                    joint.name,
-                    values::position(at).replace('"', "")
-                )
+                let at = values::position(at).replace('"', "");
+                format!("`{}` at {at}", joint.name)
             };
             let names = Vec::from_iter(held.iter().map(name)).join(", ");
-            self.problems.say("held", &first.at, &[&names]);
+            self.problems.report("held", &first.at, &[&names]);
         }
         if let Some(first) = self.without.first() {
             let links = &self.model.links;
-            let names = self
-                .without
-                .iter()
-                .map(|link| format!("`{}`", links[*link].name));
-            let names = Vec::from_iter(names).join(", ");
-            self.problems.say("left_away", &links[*first].at, &[&names]);
+            let name = |link: &usize| format!("`{}`", links[*link].name);
+            let names = Vec::from_iter(self.without.iter().map(name)).join(", ");
+            self.problems
+                .report("left_away", &links[*first].at, &[&names]);
         }
     }
 }
@@ -126,7 +116,7 @@ pub(crate) fn check_names(model: &Model, options: &Options, problems: &mut Probl
             Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
             None => instead(name, model.links.iter().map(|link| &link.name)),
         };
-        problems.say("option_link", &model.at, &[&option, name, &help]);
+        problems.report("option_link", &model.at, &[&option, name, &help]);
     }
     let joints = options.lock.iter().filter(|(name, _)| name != OTHERS);
     for (name, _) in joints.filter(|(name, _)| model.joint(name).is_none()) {
@@ -136,6 +126,6 @@ pub(crate) fn check_names(model: &Model, options: &Options, problems: &mut Probl
             }
             _ => instead(name, model.joints.iter().map(|joint| &joint.name)),
         };
-        problems.say("option_joint", &model.at, &[name, &help]);
+        problems.report("option_joint", &model.at, &[name, &help]);
     }
 }

@@ -9,7 +9,6 @@ pub(crate) mod position;
 mod tip;
 
 use std::collections::BTreeSet;
-use std::fmt::Display;
 
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Follower, Position};
@@ -17,7 +16,8 @@ use num_traits::{Signed, Zero};
 
 use crate::Options;
 use crate::model::{Joint, Kind, Mimic, Model};
-use crate::problems::{Problems, mass_part};
+use crate::problems::{Problems, Words, mass_part};
+use crate::text::Span;
 pub(crate) use check::check_names;
 use position::advised;
 
@@ -28,14 +28,12 @@ pub(crate) const OTHERS: &str = "*";
 #[derive(Clone, Debug)]
 pub(crate) struct Selection {
     pub(crate) base: usize,
-    /// True if the base floats.
     pub(crate) floats: bool,
     pub(crate) tips: Vec<usize>,
     /// The joints of the robot, each after the one that it hangs on.
     pub(crate) order: Vec<usize>,
     pub(crate) states: Vec<State>,
-    /// The joint that moves each link: none for links that are fixed to the base or are not in the
-    /// robot.
+    /// The joint that moves each link: none if it is fixed to the base or not in the robot.
     pub(crate) movers: Vec<Option<usize>>,
     /// The links that move, in the order of the model: with a base that floats those that are fixed to it.
     pub(crate) links: Vec<usize>,
@@ -89,7 +87,7 @@ pub(crate) fn select(
     let floats = select.floats(base, options);
     let tips = match (options.tree, options.tips.as_slice()) {
         (_, []) if options.tree || floats => select.ends(base)?,
-        (true, _) => return select.problems.refuse("tree_and_tips", &model.at, &[]),
+        (true, _) => return select.refuse("tree_and_tips", &model.at, &[]),
         (false, []) => vec![select.tip(base)?],
         (false, names) => {
             let links = names.iter().map(|name| model.link(name));
@@ -102,9 +100,7 @@ pub(crate) fn select(
     }
     if wanted.iter().all(|joint| select.stays(*joint)) {
         let [from, to] = [base, tips[0]].map(|link| &model.links[link]);
-        return select
-            .problems
-            .refuse("no_mover", &to.at, &[&from.name, &to.name]);
+        return select.refuse("no_mover", &to.at, &[&from.name, &to.name]);
     }
     let (order, movers) = select.settle(base, floats, &wanted);
     let ends = |link: usize| order.iter().any(|joint| model.ends[*joint][1] == link);
@@ -121,10 +117,10 @@ pub(crate) fn select(
     };
     select.check_ties(&selection);
     select.check_followers_beside(&selection);
-    if !floats {
-        select.say_base(base);
+    if !floats && model.above[base].is_some() {
+        select.report_base(base);
     }
-    select.say_held(&selection);
+    select.report_held(&selection);
     (!select.problems.has_errors()).then_some(selection)
 }
 
@@ -138,17 +134,14 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             Kind::Fixed => State::Stays(None),
             _ => State::Moves,
         });
+        let without = options.without.iter().filter_map(|name| model.link(name));
         let mut select = Select {
             model,
             problems,
             below: vec![Vec::new(); model.links.len()],
             states: kinds.collect(),
             others: None,
-            without: options
-                .without
-                .iter()
-                .filter_map(|name| model.link(name))
-                .collect(),
+            without: without.collect(),
             held: BTreeSet::new(),
         };
         for (joint, [parent, _]) in model.ends.iter().enumerate() {
@@ -176,38 +169,26 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             None => self.root().map(|root| self.standing(root, options))?,
         };
         // Behind a link that is in no circle, there is none.
-        let is_circle = self
-            .way(base)
-            .any(|joint| self.model.ends[joint][0] == base);
-        match is_circle {
-            true => self
-                .problems
-                .refuse("circle", &self.model.links[base].at, &[]),
+        let mut way = self.model.way(base);
+        match way.any(|joint| self.model.ends[joint][0] == base) {
+            true => self.refuse("circle", &self.model.links[base].at, &[]),
             false => Some(base),
         }
     }
 
-    /// Returns the joints from a link up to the root, or once around a circle.
-    pub(crate) fn way(&self, link: usize) -> impl Iterator<Item = usize> {
-        let up = |joint: &usize| self.model.above[self.model.ends[*joint][0]];
-        std::iter::successors(self.model.above[link], up).take(self.model.ends.len())
+    fn refuse<T>(&mut self, id: &str, at: &Span, words: &Words) -> Option<T> {
+        self.problems.refuse(id, at, words)
     }
 
     fn root(&mut self) -> Option<usize> {
-        let links = 0..self.model.links.len();
-        let roots: Vec<usize> = links
-            .filter(|link| self.model.above[*link].is_none())
-            .collect();
-        let names = roots
-            .iter()
-            .map(|root| self.model.links[*root].name.as_str());
-        let names = Vec::from_iter(names).join(", ");
+        let is_root = |link: &usize| self.model.above[*link].is_none();
+        let roots: Vec<usize> = (0..self.model.links.len()).filter(is_root).collect();
+        let name = |root: &usize| self.model.links[*root].name.as_str();
+        let names = Vec::from_iter(roots.iter().map(name)).join(", ");
         match roots[..] {
             [root] => Some(root),
-            [] => self.problems.refuse("no_root", &self.model.at, &[]),
-            _ => self
-                .problems
-                .refuse("roots", &self.model.at, &[&roots.len(), &names]),
+            [] => self.refuse("no_root", &self.model.at, &[]),
+            _ => self.refuse("roots", &self.model.at, &[&roots.len(), &names]),
         }
     }
 
@@ -224,7 +205,7 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
                 let is_free = *kind == Kind::Floating;
                 if !(is_free && self.floats(link, options)) {
                     self.problems
-                        .say("begins_behind", at, &[name, &kind.word()]);
+                        .report("begins_behind", at, &[name, &kind.word()]);
                 }
                 base = link;
             }
@@ -246,7 +227,6 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         options.tree || self.ends(base).is_some_and(|ends| ends.len() > 1)
     }
 
-    /// Returns true if a free joint carries a link.
     fn is_carried_freely(&self, link: usize) -> bool {
         let above = self.model.above[link];
         above.is_some_and(|joint| self.model.joints[joint].kind == Kind::Floating)
@@ -280,16 +260,12 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
             // In a circle there is no end.
             let Some(joint) = above.filter(|_| path.len() <= self.model.ends.len()) else {
                 let [base, tip] = [base, tip].map(|link| &self.model.links[link]);
-                return self
-                    .problems
-                    .refuse("not_on", &tip.at, &[&tip.name, &base.name]);
+                return self.refuse("not_on", &tip.at, &[&tip.name, &base.name]);
             };
             path.push(joint);
             if self.without.contains(&link) {
                 let link = &self.model.links[link];
-                return self
-                    .problems
-                    .refuse("passes_through", &link.at, &[&link.name]);
+                return self.refuse("passes_through", &link.at, &[&link.name]);
             }
             link = self.model.ends[joint][0];
         }
@@ -337,12 +313,10 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         }
         left.sort_unstable();
         if let Some(first) = left.first() {
-            let names = left
-                .iter()
-                .map(|joint| self.model.joints[*joint].name.as_str());
-            let names = Vec::from_iter(names).join(", ");
-            self.problems
-                .say("on_the_base", &self.model.joints[*first].at, &[&names]);
+            let name = |joint: &usize| self.model.joints[*joint].name.as_str();
+            let names = Vec::from_iter(left.iter().map(name)).join(", ");
+            let at = &self.model.joints[*first].at;
+            self.problems.report("on_the_base", at, &[&names]);
         }
         (order, movers)
     }
@@ -353,37 +327,26 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         let Joint { name, kind, at, .. } = model_joint;
         let is_held = kind.has_one_axis() || *kind == Kind::Ball;
         let Some(text) = self.others.clone().filter(|_| is_held) else {
-            let follows = model_joint
-                .mimic
-                .as_ref()
-                .map(|mimic| format!(", mimics `{}`", mimic.leader))
-                .unwrap_or_default();
-            let id = if kind.has_one_axis() {
-                "hangs_beside"
-            } else {
-                "ball_beside"
+            let follows = match &model_joint.mimic {
+                Some(mimic) => format!(", mimics `{}`", mimic.leader),
+                None => String::new(),
             };
-            let words: [&dyn Display; 5] = [
-                name,
-                &kind.word(),
-                &follows,
-                &advised(model_joint),
-                &model_joint.child.0,
-            ];
-            return self.problems.refuse(id, at, &words);
+            let id = match kind.has_one_axis() {
+                true => "hangs_beside",
+                false => "ball_beside",
+            };
+            let (advice, link) = (advised(model_joint), &model_joint.child.0);
+            return self.refuse(id, at, &[name, &kind.word(), &follows, &advice, link]);
         };
         if *kind == Kind::Ball {
-            self.problems.say("ball_held", at, &[name]);
+            self.problems.report("ball_held", at, &[name]);
             return Some(State::Stays(None));
         }
         let at = match self.leader(joint) {
             Some((leader, lines)) => {
                 let leader = &self.model.joints[leader];
-                along(
-                    *kind,
-                    position::nearest(leader, &text, self.problems)?,
-                    &lines,
-                )
+                let at = position::nearest(leader, &text, self.problems)?;
+                along(*kind, at, &lines)
             }
             None => position::nearest(model_joint, &text, self.problems)?,
         };
@@ -436,16 +399,15 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         let model_joint = &self.model.joints[joint];
         let (name, kind) = (&model_joint.name, model_joint.kind);
         if !kind.has_one_axis() {
-            self.problems.say(
-                "more_axes",
-                &model_joint.at,
-                &[name, &kind.word(), &model_joint.child.0],
-            );
+            let (at, link) = (&model_joint.at, &model_joint.child.0);
+            self.problems
+                .report("more_axes", at, &[name, &kind.word(), link]);
         } else if let Some(mimic) = model_joint.mimic.as_ref().filter(|_| !self.stays(joint))
             && let Some(why) = self.cannot_follow(joint, mimic, wanted)
         {
-            let words: [&dyn Display; 4] = [name, &mimic.leader, &why, &advised(model_joint)];
-            self.problems.say("mimics", &mimic.at, &words);
+            let (at, leader, advice) = (&mimic.at, &mimic.leader, advised(model_joint));
+            self.problems
+                .report("mimics", at, &[name, leader, &why, &advice]);
         }
     }
 
@@ -456,10 +418,8 @@ impl<'m, 'p, 't> Select<'m, 'p, 't> {
         wanted: &BTreeSet<usize>,
     ) -> Option<String> {
         let joints = &self.model.joints;
-        let leader = wanted
-            .iter()
-            .find(|other| joints[**other].name == mimic.leader);
-        let Some(leader) = leader else {
+        let is_leader = |other: &&usize| joints[**other].name == mimic.leader;
+        let Some(leader) = wanted.iter().find(is_leader) else {
             return Some(", which is not part of the robot".to_owned());
         };
         if self.stays(*leader) {

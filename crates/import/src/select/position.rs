@@ -34,10 +34,10 @@ fn read(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> 
             return problems.refuse("has_no_position", &joint.at, &[name, &kind.word()]);
         }
         Kind::Prismatic => number.map(Position::Length),
-        Kind::Revolute | Kind::Continuous => number
-            .map(Angle::Radians)
-            .or_else(|_| Angle::parse(text))
-            .map(|angle| Position::Angle(right(angle))),
+        Kind::Revolute | Kind::Continuous => {
+            let angle = number.map(Angle::Radians).or_else(|_| Angle::parse(text));
+            angle.map(|angle| Position::Angle(right(angle)))
+        }
     };
     match read {
         Ok(position) => Some(position),

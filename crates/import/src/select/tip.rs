@@ -2,7 +2,6 @@
 //! longest chain; and the ends of all limbs.
 
 use std::collections::BTreeSet;
-use std::fmt::Display;
 
 use crate::model::{Kind, Role};
 use crate::problems::MAX_NAMES;
@@ -15,9 +14,6 @@ const FINGER: usize = 4;
 /// Parts of the names of fingers; a link called gripper is the palm.
 const FINGERS: [&str; 4] = ["finger", "jaw", "claw", "thumb"];
 const HANDS: [&str; 7] = ["hand", "flange", "tool", "palm", "tcp", "grasp", "ee_"];
-
-/// The joints that move behind each link, one behind the other.
-type Heights = Vec<usize>;
 
 impl Select<'_, '_, '_> {
     /// Takes the first of several links that one joint moves.
@@ -37,12 +33,8 @@ impl Select<'_, '_, '_> {
         // One end of each chain: those that one joint moves differ in poses alone.
         let mut chains = BTreeSet::new();
         let is_new = |tip: &&usize| chains.insert(self.moved_with(**tip, base));
-        let ends = tips.iter().filter(is_new);
-        let mut help = ends
-            .take(MAX_NAMES)
-            .map(name)
-            .collect::<Vec<_>>()
-            .join(", ");
+        let ends = tips.iter().filter(is_new).take(MAX_NAMES).map(name);
+        let mut help = Vec::from_iter(ends).join(", ");
         let stands = self.fixed_to(base);
         let is_loaded = |tip: &usize| self.is_loaded(*tip, &stands, &heights);
         if self.others.is_none() && tips.iter().any(is_loaded) {
@@ -51,8 +43,7 @@ impl Select<'_, '_, '_> {
                 false => "; --lock-others 0 holds all else that hangs on the chain",
             };
         }
-        self.problems
-            .refuse("ends", &self.model.at, &[&message, &help])
+        self.refuse("ends", &self.model.at, &[&message, &help])
     }
 
     /// Returns the first of links that one joint moves, and says so.
@@ -61,15 +52,13 @@ impl Select<'_, '_, '_> {
         let name = |link: &usize| self.model.links[*link].name.as_str();
         let others: Vec<&str> = rest.iter().take(MAX_NAMES).map(name).collect();
         let (at, end) = (&self.model.links[*link].at, name(link));
-        let (names, moves) = (
-            others.join("`, `"),
-            if rest.len() == 1 { "moves" } else { "move" },
-        );
+        let moves = if rest.len() == 1 { "moves" } else { "move" };
         match others.first() {
-            None => self.problems.say("ends_at", at, &[&end]),
+            None => self.problems.report("ends_at", at, &[&end]),
             Some(first) => {
-                let words: [&dyn Display; 4] = [&end, &names, &moves, first];
-                self.problems.say("ends_at_with", at, &words);
+                let names = others.join("`, `");
+                self.problems
+                    .report("ends_at_with", at, &[&end, &names, &moves, first]);
             }
         }
         Some(*link)
@@ -90,20 +79,16 @@ impl Select<'_, '_, '_> {
                 }
             }
         }
-        let carriers: BTreeSet<usize> = moving
-            .iter()
-            .flat_map(|joint| self.way(self.model.ends[*joint][0]))
-            .collect();
+        let way = |joint: &usize| self.model.way(self.model.ends[*joint][0]);
+        let carriers: BTreeSet<usize> = moving.iter().flat_map(way).collect();
         moving.retain(|joint| !carriers.contains(joint));
         moving.sort_unstable();
-        let ends: Vec<usize> = moving
-            .iter()
-            .map(|joint| self.model.ends[*joint][1])
-            .collect();
+        let links = moving.iter().map(|joint| self.model.ends[*joint][1]);
+        let ends: Vec<usize> = links.collect();
         let heights = self.heights(base);
         let (tips, _) = self.chain_ends(base, &heights, false);
         match ends[..] {
-            [] => self.problems.refuse("no_arm", &self.model.at, &[]),
+            [] => self.refuse("no_arm", &self.model.at, &[]),
             [end] => {
                 let is_moved = |tip: &usize| self.moved_with(*tip, base) == end;
                 let tips: Vec<usize> = tips.into_iter().filter(is_moved).collect();
@@ -116,18 +101,15 @@ impl Select<'_, '_, '_> {
     /// Returns one link for each joint that is the last to move.
     pub(crate) fn tips(&mut self, base: usize) -> Option<Vec<usize>> {
         let heights = self.heights(base);
-        let (tips, _) = self.chain_ends(base, &heights, true);
+        let (mut tips, _) = self.chain_ends(base, &heights, true);
         let mut end_links = BTreeSet::new();
-        let mut tips: Vec<usize> = tips
-            .into_iter()
-            .filter(|tip| {
-                let link = self.moved_with(*tip, base);
-                link != base && end_links.insert(link)
-            })
-            .collect();
+        tips.retain(|tip| {
+            let link = self.moved_with(*tip, base);
+            link != base && end_links.insert(link)
+        });
         tips.sort_unstable();
         match tips.is_empty() {
-            true => self.problems.refuse("no_arm", &self.model.at, &[]),
+            true => self.refuse("no_arm", &self.model.at, &[]),
             false => Some(tips),
         }
     }
@@ -199,15 +181,14 @@ impl Select<'_, '_, '_> {
         }
         let moves = |joint: usize| {
             let child = self.model.ends[joint][1];
-            let height = heights[child];
-            !chain.contains(&child) && (!self.stays(joint) || height > 0)
+            !chain.contains(&child) && (!self.stays(joint) || heights[child] > 0)
         };
         let links = chain.iter().filter(|link| !stands.contains(link));
         links.flat_map(|link| self.hanging(*link)).any(moves)
     }
 
     /// Counts the joints that move one behind the other from each link on.
-    fn heights(&self, base: usize) -> Heights {
+    fn heights(&self, base: usize) -> Vec<usize> {
         let mut order = vec![base];
         let mut at = 0;
         while let Some(link) = order.get(at).copied() {
@@ -258,9 +239,7 @@ impl Select<'_, '_, '_> {
         let Some(mimic) = &self.model.joints[joint].mimic else {
             return false;
         };
-        let above = |joint: &usize| self.model.above[self.model.ends[*joint][0]];
-        // In a circle there is no end.
-        let mut ancestors = std::iter::successors(above(&joint), above).take(self.model.ends.len());
+        let mut ancestors = self.model.way(self.model.ends[joint][0]);
         ancestors.all(|above| self.model.joints[above].name != mimic.leader)
     }
 

@@ -6,7 +6,7 @@ use dalembert_model::number::Rational;
 use num_traits::Zero;
 
 use super::{only, origin};
-use crate::model::{Joint, Kind, Mimic, Number, least};
+use crate::model::{Joint, Kind, Mimic, Number, least, or_zero};
 use crate::read::Reader;
 use crate::xml::{Attribute, Element};
 
@@ -28,26 +28,22 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
     let [parent, child] = ["parent", "child"].map(|tag| match element.first(tag) {
         Some(end) => reader.required(end, "link"),
         None => {
-            reader.say("joint_without_end", &element.at, &[&name, &tag]);
+            reader.report("joint_without_end", &element.at, &[&name, &tag]);
             (String::new(), element.at.clone())
         }
     });
     let around = reader.problems.enter(&element.at);
     reader.check("robot", element, &format!("joint `{name}`"));
     reader.required(element, "type");
-    let kind = reader
-        .word(element, "type", &Kind::WORDS)
-        .unwrap_or_default();
+    let word = reader.word(element, "type", &Kind::WORDS);
+    let kind = word.unwrap_or_default();
     let axis = only(element, "axis", reader)
         .and_then(|axis| reader.numbers(axis, "xyz"))
         .unwrap_or_else(|| Number::constants(["1", "0", "0"], &element.at));
     let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
     if moves && axis.iter().all(|x| x.value.is_zero()) {
-        reader.say(
-            "no_direction",
-            &axis[0].at,
-            &[&name, &"<axis xyz=\"0 0 1\"/>"],
-        );
+        let help = "<axis xyz=\"0 0 1\"/>";
+        reader.report("no_direction", &axis[0].at, &[&name, &help]);
     }
     let limit = only(element, "limit", reader);
     let mut of_limit = |key| limit.and_then(|limit| reader.number(limit, key));
@@ -57,11 +53,10 @@ pub(super) fn joint(element: &Element, reader: &mut Reader) -> Joint {
     let bounds = ["acceleration", "drake:acceleration", "deceleration"].map(&mut of_limit);
     let acceleration = least(bounds);
     let has_range = lower.is_some() || upper.is_some();
-    let range = limit
-        .filter(|_| has_range && moves && kind != Kind::Continuous)
-        .map(|limit| {
-            [lower, upper].map(|end| end.unwrap_or_else(|| Number::constant("0", &limit.at)))
-        });
+    let ranged = limit.filter(|_| has_range && moves && kind != Kind::Continuous);
+    let range = ranged.map(|limit| {
+        [lower, upper].map(|end| end.unwrap_or_else(|| Number::constant("0", &limit.at)))
+    });
     let position = reader.range(&name, range);
     let drive = drive(element, &name, reader);
     for (key, load) in [
@@ -110,12 +105,12 @@ fn drive(element: &Element, name: &str, reader: &mut Reader) -> Joint {
     let older = only(element, "joint_properties", reader);
     let dynamics = match (only(element, "dynamics", reader), older) {
         (Some(dynamics), Some(older)) => {
-            reader.say("beside_properties", &older.at, &[&of]);
+            reader.report("beside_properties", &older.at, &[&of]);
             dynamics
         }
         (Some(dynamics), None) => dynamics,
         (None, Some(older)) => {
-            reader.say("older_dynamics", &older.at, &[&of]);
+            reader.report("older_dynamics", &older.at, &[&of]);
             older
         }
         (None, None) => return Joint::default(),
@@ -127,7 +122,7 @@ fn drive(element: &Element, name: &str, reader: &mut Reader) -> Joint {
             number.filter(|number| !number.value.is_zero())
         });
         if let (Some(_), Some(other)) = (&first, &other) {
-            reader.say("beside_dynamics", &other.at, &[&of, &second]);
+            reader.report("beside_dynamics", &other.at, &[&of, &second]);
         }
         first.or(other)
     };
@@ -139,7 +134,7 @@ fn drive(element: &Element, name: &str, reader: &mut Reader) -> Joint {
     Joint {
         damping,
         friction,
-        armature: armature.map_or_else(Rational::zero, |armature| armature.value),
+        armature: or_zero(armature),
         ..Joint::default()
     }
 }
@@ -155,23 +150,21 @@ pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut
     for joint in element.all("joint") {
         named.extend(joint.value("name").map(|name| (name, joint)));
     }
-    let kind = element
-        .get("type")
-        .or(element.first("type").and_then(Element::content));
+    let inside = element.first("type").and_then(Element::content);
+    let kind = element.get("type").or(inside);
     let kind = kind.map_or("", |kind| &kind.value);
     for place in actuators.iter().copied().chain([element]) {
-        let rotor = ROTORS
-            .iter()
-            .find_map(|(rotors, ratios)| Some((number_named(place, rotors)?, ratios)));
+        let mut rotors = ROTORS.iter();
+        let rotor = rotors.find_map(|(keys, ratios)| Some((number_named(place, keys)?, ratios)));
         let Some((inertia, ratios)) = rotor else {
             continue;
         };
         if COUPLED.iter().any(|word| kind.contains(word)) {
-            reader.say("rotors_coupled", &inertia.at, &[&of, &kind]);
+            reader.report("rotors_coupled", &inertia.at, &[&of, &kind]);
             continue;
         }
         if named.is_empty() {
-            reader.say("rotor_without_joint", &inertia.at, &[&of]);
+            reader.report("rotor_without_joint", &inertia.at, &[&of]);
         }
         let Some(rotor) = reader.parse(inertia.value.trim(), &inertia.at) else {
             continue;
@@ -188,7 +181,7 @@ pub(super) fn transmission(element: &Element, joints: &mut [Joint], reader: &mut
             let ratio = ratio.map_or_else(one, |ratio| reader.parse(ratio.value.trim(), &ratio.at));
             match (joints.iter_mut().find(|joint| joint.name == **name), ratio) {
                 (Some(joint), Some(ratio)) => joint.add_rotor(rotor.clone(), ratio),
-                (None, _) => reader.say("rotor_of_nothing", &driven.at, &[&of, name]),
+                (None, _) => reader.report("rotor_of_nothing", &driven.at, &[&of, name]),
                 (Some(_), None) => {}
             }
         }
@@ -205,11 +198,8 @@ fn number_named<'e>(place: &'e Element, names: &[&str]) -> Option<&'e Attribute>
     names.iter().find_map(|name| {
         let is_named = |inside: &&Element| local(&inside.tag) == *name;
         let inside = place.inside.iter().find(is_named);
-        let attribute = || {
-            place
-                .get(name)
-                .or_else(|| place.get(&format!("drake:{name}")))
-        };
+        let prefixed = || place.get(&format!("drake:{name}"));
+        let attribute = || place.get(name).or_else(prefixed);
         inside.and_then(Element::content).or_else(attribute)
     })
 }

@@ -40,14 +40,8 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
         format: Format::Urdf,
         name: root.value("name").unwrap_or("arm").to_owned(),
         at: root.at.clone(),
-        links: root
-            .all("link")
-            .map(|element| link(element, reader))
-            .collect(),
-        joints: root
-            .all("joint")
-            .map(|element| joint(element, reader))
-            .collect(),
+        links: root.all("link").map(|part| link(part, reader)).collect(),
+        joints: root.all("joint").map(|part| joint(part, reader)).collect(),
         ..Model::default()
     };
     let frames = root.all("frame").take(MAX_LINKS + 1);
@@ -60,14 +54,10 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     if model.links.is_empty() {
         return reader.refuse("no_links", &root.at, &[]);
     }
-    reader.unique(
-        "link",
-        model.links.iter().map(|link| (&link.name, &link.at)),
-    );
-    reader.unique(
-        "joint",
-        model.joints.iter().map(|joint| (&joint.name, &joint.at)),
-    );
+    let links = model.links.iter().map(|link| (&link.name, &link.at));
+    reader.unique("link", links);
+    let joints = model.joints.iter().map(|joint| (&joint.name, &joint.at));
+    reader.unique("joint", joints);
     model.resolve(reader.problems);
     let transmissions = root.all("transmission");
     transmissions.for_each(|element| transmission(element, &mut model.joints, reader));
@@ -80,7 +70,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     for element in root.all("mujoco") {
         let mut mjcf = reader.with(&MJCF);
         mjcf.check("", element, "the robot");
-        mjcf.say_unknown();
+        mjcf.report_unknown();
         let (bounds, gravity) = Settings::of_urdf(element, &mut mjcf);
         model.gravity = gravity.or(model.gravity.take());
         bounds.apply(&mut model, reader);
@@ -88,7 +78,7 @@ pub(crate) fn read(root: &Element, reader: &mut Reader) -> Option<Model> {
     for param in root.all_inside("param") {
         let value = param.text.as_ref().map_or("", |text| &text.value);
         if param.value("name") == Some("mimic") {
-            reader.say("plugin mimicJoint", &param.at, &[&value]);
+            reader.report("plugin mimicJoint", &param.at, &[&value]);
         }
     }
     Some(model)
@@ -102,17 +92,15 @@ fn link(element: &Element, reader: &mut Reader) -> Link {
         .and_then(|inertial| self::inertial(inertial, &name, reader));
     reader.problems.leave(around);
     Link {
-        at: element.at.clone(),
         inertial,
-        name,
-        ..Link::default()
+        ..Link::new(name, &element.at)
     }
 }
 
 /// Returns the first element of a tag, which is the one that counts.
 fn only<'e>(element: &'e Element, tag: &'e str, reader: &mut Reader) -> Option<&'e Element> {
     if let Some(second) = element.all(tag).nth(1) {
-        reader.say("second", &second.at, &[&tag]);
+        reader.report("second", &second.at, &[&tag]);
     }
     element.first(tag)
 }
@@ -121,7 +109,7 @@ fn inertial(element: &Element, link: &str, reader: &mut Reader) -> Option<Inerti
     let [mass, inertia] = ["mass", "inertia"].map(|tag| {
         let part = element.first(tag);
         if part.is_none() {
-            reader.say("no_inertial_part", &element.at, &[&link, &tag]);
+            reader.report("no_inertial_part", &element.at, &[&link, &tag]);
         }
         part
     });
@@ -149,15 +137,15 @@ fn origin(element: &Element, reader: &mut Reader) -> Origin {
     let origin = only(element, "origin", reader).unwrap_or(&none);
     let xyz = reader.vector(origin, "xyz");
     let Some(quaternion) = origin.get("quat_xyzw") else {
-        return rolled(xyz, reader.vector(origin, "rpy"));
+        return rolled([xyz, reader.vector(origin, "rpy")]);
     };
     if let Some(rpy) = origin.get("rpy") {
-        reader.say("two_orientations", &rpy.at, &[&"rpy` and `quat_xyzw"]);
+        reader.report("two_orientations", &rpy.at, &[&"rpy` and `quat_xyzw"]);
     }
     let numbers = reader.numbers(origin, "quat_xyzw");
-    match numbers.map(|[x, y, z, w]| of_quaternion(&[w, x, y, z])) {
+    match numbers.map(|[x, y, z, w]| of_quaternion([w, x, y, z])) {
         Some(Some(turned)) => return Pose::of(xyz, turned, &quaternion.at).origin(),
-        Some(None) => reader.say("orientation_of_zero", &quaternion.at, &[&"quat_xyzw"]),
+        Some(None) => reader.report("orientation_of_zero", &quaternion.at, &[&"quat_xyzw"]),
         None => {}
     }
     Origin {
@@ -166,34 +154,27 @@ fn origin(element: &Element, reader: &mut Reader) -> Origin {
     }
 }
 
-fn rolled(xyz: [Number; 3], rpy: [Number; 3]) -> Origin {
+fn rolled([xyz, rpy]: [[Number; 3]; 2]) -> Origin {
     let rpy = rpy.map(|number| number.map(|value| Angle::Radians(value).canonical()));
-    Origin {
-        xyz,
-        rpy,
-        meant: None,
-    }
+    let meant = None;
+    Origin { xyz, rpy, meant }
 }
 
 /// Reads a frame of Drake's: a name for a place on a link.
 fn frame(element: &Element, model: &mut Model, reader: &mut Reader) {
     let around = reader.problems.enter(&element.at);
-    let [parent, child] = ["link", "name"].map(|key| reader.required(element, key));
-    let [xyz, rpy] = ["xyz", "rpy"].map(|key| reader.vector(element, key));
+    let ends = ["link", "name"].map(|key| reader.required(element, key));
+    let origin = rolled(["xyz", "rpy"].map(|key| reader.vector(element, key)));
     reader.problems.leave(around);
     model.links.push(Link {
-        name: child.0.clone(),
-        at: element.at.clone(),
         role: Role::Mark,
-        ..Link::default()
+        ..Link::new(ends[1].0.clone(), &element.at)
     });
-    let origin = rolled(xyz, rpy);
-    model
-        .joints
-        .push(Joint::fixed(parent, child, &element.at, origin));
+    let joint = Joint::fixed(ends, &element.at, origin);
+    model.joints.push(joint);
 }
 
-/// Says what Gazebo's extension of a link or a joint has that is left out.
+/// Reports what Gazebo's extension of a link or a joint has that is left out.
 fn gazebo(element: &Element, model: &Model, reader: &mut Reader) {
     let reference = element.value("reference").unwrap_or_default();
     let link = model.links.iter().find(|link| link.name == reference);

@@ -22,23 +22,6 @@ pub const MJCFS: [&str; 8] = [
     "mjcf/z1",
 ];
 
-pub struct Golden {
-    pub joints: Vec<String>,
-    pub states: Vec<State>,
-}
-
-pub struct State {
-    pub q: Vec<f64>,
-    pub qd: Vec<f64>,
-    pub qdd: Vec<f64>,
-    pub tau: Vec<f64>,
-    pub gravity: Vec<f64>,
-    /// Row-major.
-    pub inertia: Vec<f64>,
-    /// [R | p], row-major.
-    pub pose: Vec<f64>,
-}
-
 /// Returns the path of a file in `tests/data`.
 pub fn path(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -51,20 +34,32 @@ pub fn data(file: &str) -> String {
 }
 
 fn file(name: &str) -> String {
-    let ending = if name.starts_with("mjcf/") {
-        "xml"
-    } else {
-        "urdf"
-    };
-    format!("{name}.{ending}")
+    match name.starts_with("mjcf/") {
+        true => format!("{name}.xml"),
+        false => format!("{name}.urdf"),
+    }
 }
 
 pub fn source(name: &str) -> String {
     data(&file(name))
 }
 
-pub fn json(name: &str) -> Value {
+/// Returns the values of another program: `joints`, and `states`, matrices in them row by row.
+pub fn golden(name: &str) -> Value {
     serde_json::from_str(&data(&format!("{name}.golden.json"))).unwrap()
+}
+
+pub fn words(json: &Value) -> Vec<&str> {
+    let words = json.as_array().into_iter().flatten();
+    words.map(|word| word.as_str().unwrap()).collect()
+}
+
+pub fn states(golden: &Value) -> &[Value] {
+    golden["states"].as_array().unwrap()
+}
+
+pub fn vector(state: &Value, key: &str) -> DVector<f64> {
+    DVector::from_vec(flat(&state[key]))
 }
 
 /// Returns the chain to a tip with these joints held.
@@ -79,7 +74,7 @@ pub fn to(tip: &str, lock: &[(&str, &str)]) -> Options {
 
 /// Returns the chain of the golden values, every other joint that moves locked at 0.
 pub fn snapped(name: &str) -> Options {
-    let json = json(name);
+    let json = golden(name);
     Options {
         base: json["base"].as_str().map(str::to_owned),
         file: format!("{name}.urdf"),
@@ -105,28 +100,6 @@ pub fn taken(source: &str, options: &Options) -> Import {
         .unwrap_or_else(|errors| panic!("{}", errors.in_file("arm.urdf").render()))
 }
 
-pub fn golden(name: &str) -> Golden {
-    let json = json(name);
-    let joints = json["joints"].as_array().unwrap().iter();
-    let states = json["states"].as_array().unwrap().iter();
-    Golden {
-        joints: joints
-            .map(|name| name.as_str().unwrap().to_owned())
-            .collect(),
-        states: states
-            .map(|state| State {
-                q: flat(&state["q"]),
-                qd: flat(&state["qd"]),
-                qdd: flat(&state["qdd"]),
-                tau: flat(&state["tau"]),
-                gravity: flat(&state["gravity"]),
-                inertia: flat(&state["inertia"]),
-                pose: flat(&state["tip_pose"]),
-            })
-            .collect(),
-    }
-}
-
 pub fn flat(json: &Value) -> Vec<f64> {
     match json {
         Value::Array(items) => items.iter().flat_map(flat).collect(),
@@ -138,11 +111,8 @@ pub fn flat(json: &Value) -> Vec<f64> {
 pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let size = largest(expected);
-    let off = found
-        .iter()
-        .zip(expected)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0f64, f64::max);
+    let offs = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    let off = offs.fold(0.0f64, f64::max);
     if size == 0.0 { off } else { off / size }
 }
 
@@ -150,63 +120,66 @@ pub fn largest(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0f64, |most, x| most.max(x.abs()))
 }
 
-fn torques(robot: &Robot, runtime: &Reference<f64>, state: &State) -> Vec<f64> {
-    let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
+/// Returns the torques at a state without those of damping.
+fn torques(robot: &Robot, runtime: &Reference<f64>, state: &Value) -> Vec<f64> {
+    let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| vector(state, key));
     let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
     let damping = |i: usize| robot.joints[i].viscous.to_f64().unwrap() * qd[i];
     (0..tau.len()).map(|i| tau[i] - damping(i)).collect()
 }
 
 /// Returns the largest difference from the golden values, relative to their sizes.
-pub fn worst(robot: &Robot, golden: &Golden) -> f64 {
-    let names = robot.joints.iter().flat_map(|joint| joint.name.clone());
-    assert_eq!(names.collect::<Vec<_>>(), golden.joints);
+pub fn worst(robot: &Robot, golden: &Value) -> f64 {
+    let names = robot.joints.iter().flat_map(|joint| joint.name.as_deref());
+    assert_eq!(names.collect::<Vec<_>>(), words(&golden["joints"]));
     let runtime = Reference::<f64>::from_robot(robot);
     let mut worst = 0.0f64;
-    for state in &golden.states {
-        let q = DVector::from_vec(state.q.clone());
+    for state in states(golden) {
+        let q = vector(state, "q");
         let gravity = runtime.gravity(&q).unwrap();
         let inertia = runtime.inertia(&q).unwrap().transpose();
         let hand = runtime.hand(&q).unwrap().rows();
-        for (found, expected) in [
-            (&*torques(robot, &runtime, state), &state.tau),
-            (gravity.as_slice(), &state.gravity),
-            (inertia.as_slice(), &state.inertia),
-            (&hand, &state.pose),
+        for (found, key) in [
+            (&*torques(robot, &runtime, state), "tau"),
+            (gravity.as_slice(), "gravity"),
+            (inertia.as_slice(), "inertia"),
+            (&hand, "tip_pose"),
         ] {
-            worst = worst.max(relative(found, expected));
+            worst = worst.max(relative(found, &flat(&state[key])));
         }
     }
     worst
 }
 
 /// Returns the motion that has all the golden states in it.
-pub fn motion(golden: &Golden) -> Motion {
-    let most = |of: fn(&State) -> &Vec<f64>| {
-        let most = |i: usize| golden.states.iter().map(move |state| of(state)[i].abs());
-        let joints = 0..golden.joints.len();
-        joints.map(|i| most(i).fold(0.0, f64::max)).collect()
+pub fn motion(golden: &Value) -> Motion {
+    let most = |key: &str| {
+        let sizes = states(golden).iter().map(|state| vector(state, key).abs());
+        sizes
+            .reduce(|one, other| one.sup(&other))
+            .unwrap()
+            .as_slice()
+            .to_vec()
     };
     Motion {
-        position: most(|state| &state.q),
-        velocity: most(|state| &state.qd),
-        acceleration: most(|state| &state.qdd),
+        position: most("q"),
+        velocity: most("qd"),
+        acceleration: most("qdd"),
     }
 }
 
 /// Checks that snapped torques are within the bound, and returns the largest bound; the golden
 /// values are rounded by this part of the largest torque.
-pub fn bounded(name: &str, imported: &Import, golden: &Golden, rounding: f64) -> f64 {
+pub fn bounded(name: &str, imported: &Import, golden: &Value, rounding: f64) -> f64 {
     let runtime = Reference::<f64>::from_robot(&imported.robot);
     let change = imported.change.as_ref();
-    let bounds = change
-        .map(|change| change.torques(&motion(golden)))
-        .unwrap_or_else(|| vec![0.0; golden.joints.len()]);
-    let sizes = golden.states.iter().map(|state| largest(&state.tau));
-    let rounding = rounding * sizes.fold(0.0f64, f64::max);
-    for state in &golden.states {
+    let changes = change.map(|change| change.torques(&motion(golden)));
+    let bounds = changes.unwrap_or_else(|| vec![0.0; words(&golden["joints"]).len()]);
+    let known = states(golden).iter().map(|state| flat(&state["tau"]));
+    let rounding = rounding * known.map(|tau| largest(&tau)).fold(0.0f64, f64::max);
+    for state in states(golden) {
         let torques = torques(&imported.robot, &runtime, state);
-        for ((torque, known), bound) in torques.iter().zip(&state.tau).zip(&bounds) {
+        for ((torque, known), bound) in torques.iter().zip(flat(&state["tau"])).zip(&bounds) {
             let off = (torque - known).abs();
             assert!(off <= bound + rounding, "{name}: {off:e} > {bound:e}");
         }

@@ -72,23 +72,18 @@ fn friction_takes_roots() {
 
 #[test]
 fn a_tolerance_is_compiled() {
-    let load = asking("scene: swing");
-    let arm = robot("stanford", &load);
+    let arm = robot("stanford", &asking("scene: swing"));
     assert!(arm.claim().contains("\"tolerated\""));
     compare_all("with a tolerance", &arm, STATES);
 }
 
 #[test]
 fn threads_change_no_bit() {
-    let load = asking("outputs: inverse_dynamics");
-    let arm = robot("planar2r", &load);
+    let arm = robot("planar2r", &asking("outputs: inverse_dynamics"));
     let native = arm.functions()[0].native();
     let states = drawn::<f64>(native, 20_001, 3);
     let [one, three] = [1, 3].map(|threads| called(native, &states, true, threads).concat());
-    assert!(
-        one.iter()
-            .zip(three)
-            .all(|(one, three)| is_same(*one, three))
-    );
+    let mut both = one.iter().zip(three);
+    assert!(both.all(|(one, three)| is_same(*one, three)));
     compare::<f64>("planar2r", native, 100);
 }

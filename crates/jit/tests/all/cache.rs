@@ -23,19 +23,22 @@ fn gravity(arm: &Arm) -> [f64; 2] {
 }
 
 fn files(folder: &Folder, extension: &str) -> Vec<PathBuf> {
-    let paths = fs::read_dir(&folder.0)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
+    let entries = fs::read_dir(&folder.0).unwrap();
+    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|e| e == extension));
     paths
-        .filter(|path| path.extension().is_some_and(|e| e == extension))
-        .collect()
+}
+
+/// Returns the path of the only entry, and its JSON.
+fn entry(folder: &Folder) -> (PathBuf, String) {
+    let entry = files(folder, "json").pop().unwrap();
+    let text = fs::read_to_string(&entry).unwrap();
+    (entry, text.split_once('\n').unwrap().1.to_owned())
 }
 
 fn hashed(json: &str) -> String {
-    let hash: String = hmac_sha256::Hash::hash(json.as_bytes())
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect();
+    let bytes = hmac_sha256::Hash::hash(json.as_bytes());
+    let hash: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
     format!("{hash}\n{json}")
 }
 
@@ -95,9 +98,7 @@ fn a_damaged_entry_is_made_anew() {
 fn an_entry_of_another_kind_is_made_anew() {
     let folder = Folder::new("other");
     let expected = gravity(&arm(&folder.load()));
-    let entry = files(&folder, "json").pop().unwrap();
-    let text = fs::read_to_string(&entry).unwrap();
-    let (_, json) = text.split_once('\n').unwrap();
+    let (entry, json) = entry(&folder);
     for (from, to) in [
         ("\"f64\"", "\"f16\""),
         ("pub fn gravity", "pub fn levity"),
@@ -119,9 +120,7 @@ fn what_others_may_write_is_not_trusted() {
     use std::os::unix::fs::PermissionsExt;
     let folder = Folder::new("others");
     let expected = gravity(&arm(&folder.load()));
-    let entry = files(&folder, "json").pop().unwrap();
-    let text = fs::read_to_string(&entry).unwrap();
-    let (_, json) = text.split_once('\n').unwrap();
+    let (entry, json) = entry(&folder);
     let forged = hashed(&json.replacen("c2", "s2", 1));
     let allow = |path: &PathBuf, mode| {
         fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();

@@ -50,13 +50,11 @@ fn program(arm: &Arm) -> String {
         let scalar = function.scalar().name();
         let module = format!("in_{scalar}");
         let arguments = &function.native().signature().arguments;
-        let names: Vec<String> = arguments
-            .iter()
-            .map(|(a, _)| format!("&{}", a.name()))
-            .collect();
+        let mut names = Vec::new();
         writeln!(main, "for _ in 0..{STATES} {{").unwrap();
         for (argument, length) in arguments {
             let name = argument.name();
+            names.push(format!("&{name}"));
             writeln!(main, "let {name} = read::<{length}>(&mut input);").unwrap();
             writeln!(main, "let {name} = {name}.map(|entry| entry as {scalar});").unwrap();
         }
@@ -71,12 +69,9 @@ fn program(arm: &Arm) -> String {
         }
         writeln!(main, "}}").unwrap();
     }
-    let modules: String = arm
-        .rust()
-        .iter()
-        .zip(["in_f64", "in_f32"])
-        .map(|(text, name)| format!("pub mod {name} {{\n{text}}}\n"))
-        .collect();
+    let texts = arm.rust().iter().zip(["in_f64", "in_f32"]);
+    let modules = texts.map(|(text, name)| format!("pub mod {name} {{\n{text}}}\n"));
+    let modules: String = modules.collect();
     format!(
         "mod generated {{\n{modules}\n}}\n{FRAME}\nfn main() {{\n\
          let mut bytes = Vec::new();\nstd::io::stdin().read_to_end(&mut bytes).unwrap();\n\

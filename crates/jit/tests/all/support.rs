@@ -11,9 +11,8 @@ pub const OTHERS: [&str; 5] = ["puma560", "stanford", "ur10", "panda", "planar3r
 pub const STATES: usize = 1_000;
 
 pub fn path(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../..")
-        .join(name)
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.join(name)
 }
 
 pub fn robot(name: &str, load: &Load) -> Arm {
@@ -134,21 +133,15 @@ pub fn called<T: Real>(
         }
     };
     let data: Vec<Vec<T>> = signature.arguments.iter().map(flat).collect();
-    let rows: Vec<(&[T], Place)> = data
-        .iter()
-        .zip(&signature.arguments)
-        .map(|(data, &(_, entries))| (data.as_slice(), place(entries)))
+    let read = data.iter().zip(&signature.arguments);
+    let rows = read.map(|(data, &(_, entries))| (data.as_slice(), place(entries)));
+    let sizes = signature.results.iter();
+    let mut outputs: Vec<_> = sizes
+        .map(|size| vec![T::default(); size * states])
         .collect();
-    let mut outputs: Vec<Vec<T>> = signature
-        .results
-        .iter()
-        .map(|entries| vec![T::default(); entries * states])
-        .collect();
-    let mut results: Vec<(&mut [T], Place)> = outputs
-        .iter_mut()
-        .zip(&signature.results)
-        .map(|(data, &entries)| (data.as_mut_slice(), place(entries)))
-        .collect();
+    let written = outputs.iter_mut().zip(&signature.results);
+    let results = written.map(|(data, &entries)| (data.as_mut_slice(), place(entries)));
+    let (rows, mut results): (Vec<_>, Vec<_>) = (rows.collect(), results.collect());
     let done = native.call_rows(&rows, &mut results, states, threads);
     done.unwrap();
     let mut series = Vec::new();

@@ -40,8 +40,7 @@ pub struct Link<S> {
     pub parent: Option<Parent>,
     /// Revolute or prismatic.
     pub kind: JointKind,
-    /// In the place of α_i and a_i: the joint's frame before it moves, in the frame of the link that
-    /// carries it; of modified DH only.
+    /// In the place of α_i and a_i of modified DH: the joint's frame at rest, in the carrier's frame.
     pub place: Option<Columns<S>>,
     /// Twist α_i.
     pub alpha: SinCosPair<S>,
@@ -81,12 +80,9 @@ impl<S: Scalar> JointPosition<S> {
         match self {
             JointPosition::Prismatic(q) => JointPosition::Prismatic(follower.motion(q)),
             JointPosition::Revolute(pair) => {
-                let more = 1..follower.turns.unsigned_abs();
+                let (more, backward) = (1..follower.turns.unsigned_abs(), follower.turns < 0);
                 let turned = more.fold(pair.clone(), |turned, _| turned.compose(pair));
-                JointPosition::Revolute(match follower.turns < 0 {
-                    true => turned.reversed(),
-                    false => turned,
-                })
+                JointPosition::Revolute(if backward { turned.reversed() } else { turned })
             }
         }
     }
@@ -118,8 +114,7 @@ impl<S> Arm<S> {
         successors(Some(from), |&link| self.carrier(link))
     }
 
-    /// Walks from the base to the tips: returns what follows for each link from what the one that
-    /// carries it has.
+    /// Walks from the base to the tips: returns what follows for each link from what its carrier has.
     pub(super) fn outward<T>(&self, base: &T, mut next: impl FnMut(usize, &T) -> T) -> Vec<T> {
         let mut results: Vec<T> = Vec::with_capacity(self.links.len());
         for link in 0..self.links.len() {
@@ -130,8 +125,7 @@ impl<S> Arm<S> {
     }
 
     /// Walks from the tips to the base: `whole` takes what the links that a link carries have sent,
-    /// each with its place, and returns what the link sends, and an entry for it. Returns the
-    /// entries in the order of the links.
+    /// with their places, and returns what it sends, and its entry. Returns the entries in order.
     pub(super) fn inward<T, J>(
         &self,
         mut whole: impl FnMut(usize, Vec<(usize, T)>) -> (T, J),
@@ -158,8 +152,15 @@ impl<S: Scalar> Arm<S> {
         &'a self,
         at: &'a At<S>,
     ) -> impl DoubleEndedIterator<Item = Step<'a, S>> + ExactSizeIterator {
-        let links = self.links.iter().zip(at);
-        links.map(move |(link, at)| link.step(self.convention, at))
+        (0..at.len().min(self.links.len())).map(move |link| self.step(link, at))
+    }
+
+    pub(super) fn step<'a>(&'a self, link: usize, at: &'a At<S>) -> Step<'a, S> {
+        Step {
+            convention: self.convention,
+            link: &self.links[link],
+            at: &at[link],
+        }
     }
 
     /// Returns the pose of frame 0 in base axes.
@@ -183,10 +184,9 @@ impl<S: Scalar> Arm<S> {
     }
 
     pub(super) fn weightless(&self) -> Arm<S> {
-        Arm {
-            gravity: zero_vector(),
-            ..self.clone()
-        }
+        let mut arm = self.clone();
+        arm.gravity = zero_vector();
+        arm
     }
 
     /// Leaves out the friction of all joints.
@@ -207,18 +207,6 @@ impl<S: Scalar> Link<S> {
             JointPosition::Prismatic(q) => (self.theta.clone(), plus(q, &self.d)),
         };
         DhVariables { theta, d }
-    }
-
-    pub(super) fn step<'a>(
-        &'a self,
-        convention: Convention,
-        at: &'a DhVariables<S>,
-    ) -> Step<'a, S> {
-        Step {
-            convention,
-            link: self,
-            at,
-        }
     }
 
     /// Returns a link without mass on a slide whose frame, at position zero, is the one before.
@@ -253,22 +241,16 @@ impl<S> Arm<S> {
     /// Returns every parameter of the arm through `f`. Pairs are converted entry by entry: a
     /// conversion that rounds leaves them on the circle only to its own accuracy.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Arm<T> {
-        self.with_each(&mut f)
-    }
-
-    fn with_each<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Arm<T> {
+        // Compiled once for each scalar.
+        let mut f: &mut dyn FnMut(&S) -> T = &mut f;
         Arm {
             convention: self.convention,
-            gravity: self.gravity.each_ref().map(&mut *f),
-            base: self.base.as_ref().map(|pose| pose.map(&mut *f)),
-            tool: self.tool.as_ref().map(|pose| pose.map(&mut *f)),
+            gravity: self.gravity.each_ref().map(&mut f),
+            base: self.base.as_ref().map(|pose| pose.map(&mut f)),
+            tool: self.tool.as_ref().map(|pose| pose.map(&mut f)),
             floats: self.floats,
-            links: self.links.iter().map(|link| link.map(&mut *f)).collect(),
-            following: self
-                .following
-                .iter()
-                .map(|line| line.map(&mut *f))
-                .collect(),
+            links: self.links.iter().map(|link| link.map(&mut f)).collect(),
+            following: self.following.iter().map(|line| line.map(&mut f)).collect(),
             frames: self.frames.map(f),
         }
     }
@@ -295,8 +277,7 @@ impl<S> Link<S> {
     }
 }
 
-/// The step from frame i−1 to frame i at a position: ⁱ⁻¹A_i, applied factor by
-/// factor, so that each is a plane rotation or a shift along one axis.
+/// The step from frame i−1 to frame i, ⁱ⁻¹A_i, factor by factor: plane rotations and shifts.
 pub(super) struct Step<'a, S> {
     pub(super) convention: Convention,
     pub(super) link: &'a Link<S>,
@@ -309,14 +290,11 @@ impl<S: Scalar> Step<'_, S> {
         let (link, at, m) = (self.link, self.at, before.clone());
         match self.convention {
             Convention::Standard => {
-                let m = m
-                    .turn_z(&at.theta)
-                    .shift_z(&at.d)
-                    .shift_x(&link.a)
-                    .turn_x(&link.alpha);
+                let moved = m.turn_z(&at.theta).shift_z(&at.d);
+                let twisted = moved.shift_x(&link.a).turn_x(&link.alpha);
                 match &link.beta {
-                    None => m,
-                    Some(beta) => m.turn_y(beta),
+                    None => twisted,
+                    Some(beta) => twisted.turn_y(beta),
                 }
             }
             Convention::Modified => self.before(m).turn_z(&at.theta).shift_z(&at.d),
@@ -402,18 +380,13 @@ impl<S: Clone> Arm<S> {
 
     /// Returns the arm with each frame in contact for a hand, of which linear components are asked for.
     pub fn in_contact(&self) -> Vec<Arm<S>> {
-        let at_hand = |mut arm: Arm<S>| {
-            (arm.frames.axes, arm.frames.rows) = (Axes::Mixed, Rows::LINEAR);
-            arm
+        let (axes, rows) = (Axes::Mixed, Rows::LINEAR);
+        let frames: &[&'static str] = match self.frames.contacts.as_slice() {
+            [] => &[HAND],
+            frames => frames,
         };
-        let at_frame = |frame: &&'static str| {
-            let (axes, rows) = (Axes::Mixed, Rows::LINEAR);
-            self.seen(&View { frame, axes, rows })
-        };
-        match self.frames.contacts.as_slice() {
-            [] => alloc::vec![at_hand(self.clone())],
-            frames => frames.iter().filter_map(at_frame).collect(),
-        }
+        let at_frame = |frame: &&'static str| self.seen(&View { frame, axes, rows });
+        frames.iter().filter_map(at_frame).collect()
     }
 
     /// Returns the links on the way to the hand, with those of a list.
@@ -433,8 +406,7 @@ impl<S: Clone> Arm<S> {
 
     /// Returns the joints that move the hand, from the base on.
     pub(super) fn way_to_hand(&self) -> Vec<usize> {
-        let last = self.links.len().checked_sub(1);
-        let last = self.frames.joint.or(last);
+        let last = self.frames.joint.or(self.links.len().checked_sub(1));
         let mut way: Vec<usize> = last.into_iter().flat_map(|last| self.way(last)).collect();
         way.reverse();
         way

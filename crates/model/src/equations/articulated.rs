@@ -16,15 +16,6 @@ use super::{Arm, At, Link};
 use crate::robot::Convention;
 use crate::scalar::Divide;
 
-struct JointPass<S> {
-    /// I S: what an acceleration along the joint takes.
-    push: Wrench<S>,
-    rest: S,
-    /// 1/d; zero of a joint that is held.
-    inverse: S,
-    drift: Twist<S>,
-}
-
 /// Returns q̈ of the joints that move, zero of the others, which are held where they are.
 pub fn forward_dynamics<S: Divide>(
     arm: &Arm<S>,
@@ -39,7 +30,7 @@ pub fn forward_dynamics<S: Divide>(
         let moved = |before: Twist<S>| (before.with(&joint_twist), before.cross(&joint_twist));
         frames[i].outward(before, moved)
     });
-    let joints = arm.inward(|i, arrived: Vec<(usize, Biased<S>)>| {
+    let passes = arm.inward(|i, arrived: Vec<(usize, Biased<S>)>| {
         let (mut body, mut bias) = (ArticulatedInertia::zero(), Wrench::zero());
         for (_, (other, other_bias)) in &arrived {
             (body, bias) = (body.plus(other), bias.with(other_bias));
@@ -49,6 +40,7 @@ pub fn forward_dynamics<S: Divide>(
         let (own_inertia, own_bias) = ArticulatedInertia::of(link, &velocity);
         let (whole, whole_bias) = (body.plus(&own_inertia), bias.with(&own_bias));
         let (whole, whole_bias) = frame.back_in(Convention::Standard, whole, whole_bias);
+        // I S: what an acceleration along the joint takes.
         let push = whole.times(&frame.along(&S::one()));
         let pivot = plus(frame.depends_on(&push), &link.armature);
         let damped = minus(&tau[i], &link.friction.torque(&qd[i]));
@@ -61,26 +53,18 @@ pub fn forward_dynamics<S: Divide>(
         let moved = whole_bias.with(&apparent_inertia.times(&drift));
         let apparent_bias = moved.with(&push.scaled(&times(&rest, &inverse)));
         let sent = frame.back_in(Convention::Modified, apparent_inertia, apparent_bias);
-        let joint = JointPass {
-            push,
-            rest,
-            inverse,
-            drift,
-        };
-        (sent, joint)
+        (sent, (push, rest, inverse, drift))
     });
     // Accelerations, outward: the base rises instead of being pulled down.
-    let base = Twist {
-        turn: zero_vector(),
-        shift: opposite(&arm.gravity),
-    };
-    let mut accelerations = Vec::with_capacity(joints.len());
+    let (turn, shift) = (zero_vector(), opposite(&arm.gravity));
+    let base = Twist { turn, shift };
+    let mut accelerations = Vec::with_capacity(passes.len());
     arm.outward(&base, |i, before| {
-        let (frame, joint) = (&frames[i], &joints[i]);
+        let (frame, (push, rest, inverse, drift)) = (&frames[i], &passes[i]);
         let (next, acceleration) = frame.outward(before, |at_joint| {
-            let drifting = at_joint.with(&joint.drift);
-            let left = minus(&joint.rest, &power(&joint.push, &drifting));
-            let acceleration = times(&left, &joint.inverse);
+            let drifting = at_joint.with(drift);
+            let left = minus(rest, &power(push, &drifting));
+            let acceleration = times(&left, inverse);
             (drifting.with(&frame.along(&acceleration)), acceleration)
         });
         accelerations.push(acceleration);
@@ -187,11 +171,10 @@ impl<S: Divide> ArticulatedInertia<S> {
     }
 
     fn plus(&self, other: &Self) -> Self {
-        ArticulatedInertia {
-            turn: block_sum(&self.turn, &other.turn),
-            mixed: block_sum(&self.mixed, &other.mixed),
-            shift: block_sum(&self.shift, &other.shift),
-        }
+        let turn = block_sum(&self.turn, &other.turn);
+        let mixed = block_sum(&self.mixed, &other.mixed);
+        let shift = block_sum(&self.shift, &other.shift);
+        ArticulatedInertia { turn, mixed, shift }
     }
 
     fn times(&self, Twist { turn, shift }: &Twist<S>) -> Wrench<S> {
@@ -208,11 +191,10 @@ impl<S: Divide> ArticulatedInertia<S> {
         let less = |block: &Block<S>, left: &Vector<S>, right: &Vector<S>| -> Block<S> {
             three(|i| difference(&block[i], &scaled(&left[i], right)))
         };
-        ArticulatedInertia {
-            turn: less(&self.turn, &moment, &push.moment),
-            mixed: less(&self.mixed, &moment, &push.force),
-            shift: less(&self.shift, &force, &push.force),
-        }
+        let turn = less(&self.turn, &moment, &push.moment);
+        let mixed = less(&self.mixed, &moment, &push.force);
+        let shift = less(&self.shift, &force, &push.force);
+        ArticulatedInertia { turn, mixed, shift }
     }
 
     /// Returns it in the axes that `turn` gives, about an origin from which its own is p away:
@@ -220,15 +202,12 @@ impl<S: Divide> ArticulatedInertia<S> {
     fn carried(&self, turned: impl Fn(&Vector<S>) -> Vector<S>, p: &Vector<S>) -> Self {
         let rows = |block: &Block<S>| block.each_ref().map(&turned);
         let both = |block: &Block<S>| transposed(&rows(&transposed(&rows(block))));
-        let [turn, mixed, shift] = [&self.turn, &self.mixed, &self.shift].map(both);
-        let mixed_there = block_sum(&mixed, &columns_crossed(p, &shift));
-        let first = columns_crossed(p, &transposed(&mixed));
-        let second = rows_crossed(&mixed_there, p);
-        ArticulatedInertia {
-            turn: three(|i| difference(&sum(&turn[i], &first[i]), &second[i])),
-            mixed: mixed_there,
-            shift,
-        }
+        let [a, b, shift] = [&self.turn, &self.mixed, &self.shift].map(both);
+        let mixed = block_sum(&b, &columns_crossed(p, &shift));
+        let first = columns_crossed(p, &transposed(&b));
+        let second = rows_crossed(&mixed, p);
+        let turn = three(|i| difference(&sum(&a[i], &first[i]), &second[i]));
+        ArticulatedInertia { turn, mixed, shift }
     }
 }
 

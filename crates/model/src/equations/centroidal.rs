@@ -34,9 +34,8 @@ impl Formulation {
         })
     }
 
-    /// Returns A of the momentum A q̇ about the centre of mass, in base axes, 6×n: linear over
-    /// angular.
-    pub fn centroidal_momentum_matrix<S: Divide>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    /// Returns A of the momentum A q̇ about the centre of mass, base axes, 6×n: linear over angular.
+    pub fn centroidal_momentum_matrix<S: Divide>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         let (centre, arm, n) = (self.centre_of_mass(arm, at), arm.weightless(), at.len());
         let rest = zeros(n);
         let columns = (0..n).map(|k| {
@@ -54,19 +53,15 @@ impl Formulation {
     }
 
     /// Returns the wrench that the ground exerts on the base, about the base's origin in base axes.
-    fn wrench_on_base<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &At<S>,
-        [qd, qdd]: [&[S]; 2],
-    ) -> Wrench<S> {
+    fn wrench_on_base<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2]) -> Wrench<S> {
+        let [qd, qdd] = rates;
         if let Some(moment) = self.moment() {
             let qdd = &*arm.accelerations(qd, qdd);
             let wrench = table2::wrench_on_base(arm, at, [qd, qdd], moment);
             let base = arm.frame_0();
             return wrench.carried(|v| base.rotate(v), &base.origin);
         }
-        let (wrenches, poses) = (self.wrenches(arm, at, qd, qdd), poses(arm, at));
+        let (wrenches, poses) = (self.wrenches(arm, at, rates), poses(arm, at));
         let carried = (0..at.len()).filter(|&link| arm.carrier(link).is_none());
         carried.fold(Wrench::zero(), |total, link| {
             let point = match arm.convention {

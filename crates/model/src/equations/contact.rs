@@ -46,12 +46,7 @@ impl Formulation {
     }
 
     /// Returns J of the components that are asked for, zero of joints that do not move.
-    pub fn moving_jacobian<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &At<S>,
-        moves: &[bool],
-    ) -> Vec<Vec<S>> {
+    pub fn moving_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, moves: &[bool]) -> Matrix<S> {
         let mut j = self.gathered_jacobian(arm, at);
         hold(&mut j, moves);
         j
@@ -59,14 +54,14 @@ impl Formulation {
 }
 
 /// Returns J Jᵀ
-pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
+pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Matrix<S> {
     symmetric(j.len(), |i, k| product(&j[i], &j[k]))
 }
 
 fn along_links<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: &[S]) -> Vec<S> {
     let (arm, at) = arm.to_hand(at);
     let at = &*at;
-    let [force, moment] = [0, 3].map(|from| three(|i| wrench[from + i].clone()));
+    let [force, moment] = parts(wrench);
     let wrench = Wrench { force, moment };
     match arm.frames.axes {
         Axes::Local => from_the_hand(&arm, at, wrench),
@@ -115,21 +110,16 @@ fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &At<S>, wrench: Wrench<S>) -> Vec<
 
 impl Formulation {
     /// Returns J of the points in contact, 3k×n, in base axes.
-    pub fn contact_jacobians<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
-        let points = arm.in_contact();
-        let rows = points
-            .iter()
-            .flat_map(|arm| self.gathered_jacobian(arm, at));
+    pub fn contact_jacobians<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
+        let points = arm.in_contact().into_iter();
+        let rows = points.flat_map(|arm| self.gathered_jacobian(&arm, at));
         rows.collect()
     }
 
     /// Returns J̇q̇ of the points in contact, 3k: their accelerations where those of joints are zero.
     pub fn contact_bias<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<S> {
-        let points = arm.in_contact();
-        let rates = points.iter().map(|arm| {
-            let [linear, _] = self.jacobian_rate(arm, at, qd);
-            linear
-        });
+        let points = arm.in_contact().into_iter();
+        let rates = points.map(|arm| self.jacobian_rate(&arm, at, qd)[0].clone());
         rates.flatten().collect()
     }
 
@@ -145,11 +135,9 @@ impl Formulation {
         let jacobian = self.contact_jacobians(arm, at);
         let inverse = self.inertia_inverse(arm, at, moves);
         let accelerations = self.forward_dynamics(arm, at, qd, tau, moves);
-        let escape = sums(
-            &products(&jacobian, &accelerations),
-            &self.contact_bias(arm, at, qd),
-        );
-        let driven: Vec<Vec<S>> = jacobian.iter().map(|row| products(&inverse, row)).collect();
+        let driven_points = products(&jacobian, &accelerations);
+        let escape = sums(&driven_points, &self.contact_bias(arm, at, qd));
+        let driven: Matrix<S> = jacobian.iter().map(|row| products(&inverse, row)).collect();
         let mobility = symmetric(jacobian.len(), |i, k| product(&driven[i], &jacobian[k]));
         ContactSpace {
             matrix: damped(&mobility, &damping[0]),
@@ -165,9 +153,9 @@ impl Formulation {
 #[derive(Clone, Debug)]
 pub struct ContactSpace<S> {
     /// J D⁻¹ Jᵀ + λ² 1, 3k×3k.
-    pub matrix: Vec<Vec<S>>,
+    pub matrix: Matrix<S>,
     /// J D⁻¹, 3k×n.
-    driven: Vec<Vec<S>>,
+    driven: Matrix<S>,
     /// J q̈₀ + J̇q̇
     pub escape: Vec<S>,
     /// q̈₀
@@ -199,27 +187,17 @@ pub fn held<S: Divide>(
     moves: &[bool],
 ) -> [Vec<S>; 2] {
     let joints = free(moves);
-    let half = |values: &[S]| factor.eliminated(&picked(values, &joints));
-    let halves: Vec<Vec<S>> = jacobian.iter().map(|row| half(row)).collect();
-    let half_load = half(load);
-    let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
+    let halves = factor.eliminated_rows(jacobian, &joints);
+    let half_load = factor.eliminated(&picked(load, &joints));
+    let scaled: Matrix<S> = halves.iter().map(|half| factor.scaled(half)).collect();
     let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
-    let escape = sums(
-        &sums(
-            &products(&scaled, &half_load),
-            &products(jacobian, reference),
-        ),
-        rate,
-    );
-    let forces: Vec<S> = Factor::new(&damped(&mobility, damping))
-        .solve(&escape)
-        .iter()
-        .map(negative)
-        .collect();
+    let by_load = products(&scaled, &half_load);
+    let driven_points = sums(&by_load, &products(jacobian, reference));
+    let escape = sums(&driven_points, rate);
+    let opposite_forces = Factor::new(&damped(&mobility, damping)).solve(&escape);
+    let forces: Vec<S> = opposite_forces.iter().map(negative).collect();
     let pushed = sums(&half_load, &products(&columns_of(&halves), &forces));
     let driven = factor.substituted(factor.scaled(&pushed));
-    [
-        sums(reference, &scatter(&driven, &joints, moves.len())),
-        forces,
-    ]
+    let accelerations = sums(reference, &scatter(&driven, &joints, moves.len()));
+    [accelerations, forces]
 }

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::lagrange_euler::{add_armature, assemble};
 use super::matrix::*;
-use super::{Arm, At, DhVariables};
+use super::{Arm, At, Link};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
@@ -64,7 +64,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         let n = arm.links.len();
         let mut this = Dalembert {
             arm,
-            poses: Vec::with_capacity(n + 1),
+            poses: alloc::vec![Columns::identity()],
             axes: Vec::with_capacity(n),
             points: Vec::with_capacity(n),
             levers: Vec::with_capacity(n),
@@ -73,23 +73,20 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
             momentum: Vec::with_capacity(n),
             jv: Vec::with_capacity(n),
         };
-        this.poses.push(Columns::identity());
-        for (s, at) in at.iter().enumerate() {
+        for s in 0..n {
             this.append(s, at);
         }
         this
     }
 
-    fn append(&mut self, s: usize, at: &DhVariables<S>) {
+    fn append(&mut self, s: usize, at: &At<S>) {
         let (link, convention) = (&self.arm.links[s], self.arm.convention);
         let carrier = self.arm.carrier(s);
         let before = &self.poses[carrier.map_or(0, |carrier| carrier + 1)];
-        let step = link.step(convention, at);
+        let step = self.arm.step(s, at);
         let moved = step.append(&Columns::turned(before.axes.clone()));
-        let pose = Columns {
-            origin: sum(&before.origin, &moved.origin),
-            axes: moved.axes,
-        };
+        let (axes, origin) = (moved.axes, sum(&before.origin, &moved.origin));
+        let pose = Columns { axes, origin };
         let joint = step.at_joint(before, &pose);
         self.axes.push(joint.axes[2].clone());
         self.points.push(joint.origin.clone());
@@ -97,13 +94,8 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         let com = pose.rotate(&link.com);
 
         let z0 = unit_z();
-        let mut local: Vec<_> = match carrier {
-            None => Vec::new(),
-            Some(carrier) => self.local[carrier]
-                .iter()
-                .map(|z| step.to_link(z))
-                .collect(),
-        };
+        let earlier = carrier.map_or(&[][..], |carrier| &self.local[carrier][..]);
+        let mut local: Vec<_> = earlier.iter().map(|z| step.to_link(z)).collect();
         // Joints on other branches do not move the link.
         local.resize(s, zero_vector());
         local.push(match (link.kind, convention) {
@@ -120,8 +112,8 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
                 JointKind::Prismatic => self.axes[i].clone(),
             };
         }
-        self.momentum
-            .push(jv.iter().map(|v| scaled(&link.mass, v)).collect());
+        let momentum = jv.iter().map(|v| scaled(&link.mass, v));
+        self.momentum.push(momentum.collect());
         self.jv.push(jv);
         self.local.push(local);
         self.coms.push(com);
@@ -130,20 +122,19 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
 
     /// Returns D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and D^tran_ij =
     /// Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j) (eq. 4.2), no armature, in the order of [`Part`].
-    pub fn inertia_parts(&self) -> [Vec<Vec<S>>; 2] {
-        let links = self.local.iter().zip(&self.arm.links);
-        let spins: Vec<Vec<_>> = links
-            .map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect())
-            .collect();
+    pub fn inertia_parts(&self) -> [Matrix<S>; 2] {
+        let spin = |(row, link): (&Vec<Vector<S>>, &Link<S>)| {
+            row.iter().map(|z| tensor_times(&link.inertia, z)).collect()
+        };
+        let spins: Vec<Vec<_>> = self.local.iter().zip(&self.arm.links).map(spin).collect();
         let rotation = pair_sums(&self.local, &spins);
         [rotation, pair_sums(&self.jv, &self.momentum)]
     }
 
     /// Returns D = D^rot + D^tran, n×n, armature on the diagonal.
-    pub fn inertia(&self) -> Vec<Vec<S>> {
+    pub fn inertia(&self) -> Matrix<S> {
         let [rotation, translation] = self.inertia_parts();
-        let rows = rotation.iter().zip(&translation);
-        let mut d: Vec<Vec<S>> = rows.map(|(a, b)| sums(a, b)).collect();
+        let mut d = matrix_sum(&rotation, &translation);
         add_armature(self.arm, &mut d);
         d
     }
@@ -156,45 +147,43 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         // sum of q̇_j q̇_k z_{j−1} × z_{k−1} and (z × ω)·Iω = z·(ω × Iω); and a_s.
         let mut moments = Vec::with_capacity(n);
         let mut accelerations = Vec::with_capacity(n);
-        let at_rest = LoadSums {
+        let at_rest = PassedMotion {
             omega: zero_vector(),
             alpha: zero_vector(),
             acceleration: zero_vector(),
         };
-        self.arm.outward(&at_rest, |s, before: &LoadSums<S>| {
-            let link = &self.arm.links[s];
-            let mut load_sums = before.clone();
+        self.arm.outward(&at_rest, |s, before: &PassedMotion<S>| {
+            let (link, mut motion) = (&self.arm.links[s], before.clone());
             let rate = scaled(&qd[s], &self.axes[s]);
             if link.kind == JointKind::Revolute {
-                load_sums.alpha = sum(&load_sums.alpha, &cross(&load_sums.omega, &rate));
-                load_sums.omega = sum(&load_sums.omega, &rate);
+                motion.alpha = sum(&motion.alpha, &cross(&motion.omega, &rate));
+                motion.omega = sum(&motion.omega, &rate);
             } else {
                 let sliding = scaled(&twice(&qd[s]), &self.axes[s]);
-                load_sums.acceleration =
-                    sum(&load_sums.acceleration, &cross(&load_sums.omega, &sliding));
+                motion.acceleration = sum(&motion.acceleration, &cross(&motion.omega, &sliding));
             }
             let lever = &self.levers[s];
             accelerations.push(match self.arm.convention {
                 Convention::Standard => {
                     // c̄_s = r_s − p_{s−1}
                     let centre = sum(lever, &self.coms[s]);
-                    let acceleration = sum(&load_sums.acceleration, &load_sums.of(&centre));
+                    let acceleration = sum(&motion.acceleration, &motion.of(&centre));
                     if s + 1 < n {
-                        load_sums.acceleration = sum(&load_sums.acceleration, &load_sums.of(lever));
+                        motion.acceleration = sum(&motion.acceleration, &motion.of(lever));
                     }
                     acceleration
                 }
                 Convention::Modified => {
-                    load_sums.acceleration = sum(&load_sums.acceleration, &before.of(lever));
-                    sum(&load_sums.acceleration, &load_sums.of(&self.coms[s]))
+                    motion.acceleration = sum(&motion.acceleration, &before.of(lever));
+                    sum(&motion.acceleration, &motion.of(&self.coms[s]))
                 }
             });
 
             let pose = &self.poses[s + 1];
-            let [omega, alpha] = [&load_sums.omega, &load_sums.alpha].map(|v| pose.rotate_back(v));
+            let [omega, alpha] = [&motion.omega, &motion.alpha].map(|v| pose.rotate_back(v));
             let spin = cross(&omega, &tensor_times(&link.inertia, &omega));
             moments.push(sum(&tensor_times(&link.inertia, &alpha), &spin));
-            load_sums
+            motion
         });
         let rotation = joint_sums(&self.local, &moments);
         [rotation, joint_sums(&self.momentum, &accelerations)]
@@ -234,13 +223,13 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
 
 /// The motion that a link passes on: ω, the printed sum α, and the acceleration of its origin.
 #[derive(Clone)]
-struct LoadSums<S> {
+struct PassedMotion<S> {
     omega: Vector<S>,
     alpha: Vector<S>,
     acceleration: Vector<S>,
 }
 
-impl<S: Scalar> LoadSums<S> {
+impl<S: Scalar> PassedMotion<S> {
     /// Returns ω × (ω × v) + α × v.
     fn of(&self, v: &Vector<S>) -> Vector<S> {
         sum(&centripetal(&self.omega, v), &cross(&self.alpha, v))
@@ -248,7 +237,7 @@ impl<S: Scalar> LoadSums<S> {
 }
 
 /// Returns [i][j] = Σ_{s ≥ max(i,j)} a[s][i] · b[s][j], symmetric by its meaning.
-fn pair_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vec<Vector<S>>]) -> Vec<Vec<S>> {
+fn pair_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vec<Vector<S>>]) -> Matrix<S> {
     let n = a.len();
     symmetric(n, |i, j| total((i..n).map(|s| dot(&a[s][i], &b[s][j]))))
 }

@@ -36,9 +36,9 @@ pub(super) fn with_rates<S: Scalar>(values: &[S], rates: &[S]) -> Vec<Dual<S>> {
     pairs.map(|(value, rate)| Dual { value, rate }).collect()
 }
 
-pub(super) fn columns<S: Scalar>(n: usize, column: &dyn Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
+pub(super) fn columns<S: Scalar>(n: usize, column: &dyn Fn(usize) -> Vec<Dual<S>>) -> Matrix<S> {
     let rates = |k: usize| column(k).into_iter().map(|x| x.rate).collect();
-    columns_of(&(0..n).map(rates).collect::<Vec<Vec<S>>>())
+    columns_of(&(0..n).map(rates).collect::<Matrix<S>>())
 }
 
 fn weighed<'a, S: Scalar + 'a>(multiplier: &[S], values: impl Iterator<Item = &'a S>) -> S {
@@ -79,7 +79,7 @@ impl Formulation {
         at: &At<S>,
         qd: &[S],
         qdd: &[S],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         let [qd, qdd] = [qd, qdd].map(|rates| constants(rates));
         columns(at.len(), &|coordinate| {
             let (arm, at) = arm.displaced(at, coordinate);
@@ -90,28 +90,22 @@ impl Formulation {
     /// Returns ∂τ/∂q̇, n×n, what friction grows by on its diagonal: joint by joint as its velocity
     /// grows at a unit rate. What q̈ and gravity add to the torques does not depend on q̇ and is
     /// left out. Lagrange–Euler has it from the symbols: Σ_m (h_ikm + h_imk) q̇_m.
-    pub fn torque_by_velocity<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<Vec<S>> {
+    pub fn torque_by_velocity<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Matrix<S> {
         let mut rows = if self == Self::LagrangeEuler {
             let c = contracted(&self.christoffel(arm, at), qd);
-            let mut rows: Vec<Vec<S>> = c
-                .iter()
-                .map(|row| row.iter().map(twice).collect())
-                .collect();
-            if arm.floats {
-                let of_base = arm.of_drift_slopes(&self.inertia(arm, at), qd);
-                let both = rows.iter().zip(&of_base);
-                rows = both.map(|(row, base)| sums(row, base)).collect();
+            let doubled = |row: &Vec<S>| row.iter().map(twice).collect();
+            let rows: Matrix<S> = c.iter().map(doubled).collect();
+            match arm.floats {
+                false => rows,
+                true => matrix_sum(&rows, &arm.of_drift_slopes(&self.inertia(arm, at), qd)),
             }
-            rows
         } else {
             let still_arm = arm.map(still);
-            let at: Vec<_> = at
-                .iter()
-                .map(|at| {
-                    let (theta, d) = (at.theta.map(still), still(&at.d));
-                    DhVariables { theta, d }
-                })
-                .collect();
+            let still_row = |at: &DhVariables<S>| {
+                let (theta, d) = (at.theta.map(still), still(&at.d));
+                DhVariables { theta, d }
+            };
+            let at: Vec<_> = at.iter().map(still_row).collect();
             columns(at.len(), &|joint| {
                 let mut qd = constants(qd);
                 qd[joint].rate = S::one();
@@ -139,7 +133,7 @@ impl Formulation {
         arm: &Arm<S>,
         at: &At<S>,
         [qd, qdd, multiplier]: [&[S]; 3],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         if !self.has_closed_form() {
             return by_composites(arm, at, [qd, qdd, multiplier]).position;
         }
@@ -158,7 +152,7 @@ impl Formulation {
         arm: &Arm<S>,
         at: &At<S>,
         [qd, multiplier]: [&[S]; 2],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         if !self.has_closed_form() {
             return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).mixed;
         }
@@ -178,23 +172,21 @@ impl Formulation {
         arm: &Arm<S>,
         at: &At<S>,
         [qd, multiplier]: [&[S]; 2],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         if !self.has_closed_form() {
             return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).velocity;
         }
         let n = at.len();
         let mut matrix = if self == Self::LagrangeEuler {
             let h = self.christoffel(arm, at);
-            symmetric(n, |k, m| {
-                twice(&weighed(multiplier, h.iter().map(|h| &h[k][m])))
-            })
+            let half = |k: usize, m: usize| weighed(multiplier, h.iter().map(|h| &h[k][m]));
+            symmetric(n, |k, m| twice(&half(k, m)))
         } else {
             let (arm, at) = moving(arm, at, &zeros(n));
             let row = |k: usize| {
                 let mut qd = constants(qd);
                 qd[k].rate = S::one();
-                let slopes = self.torque_by_velocity(&arm, &at, &qd);
-                rates_of(multiplier, &slopes)
+                rates_of(multiplier, &self.torque_by_velocity(&arm, &at, &qd))
             };
             (0..n).map(row).collect()
         };
@@ -211,7 +203,7 @@ impl Formulation {
         arm: &Arm<S>,
         at: &At<S>,
         multiplier: &[S],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         let n = at.len();
         if !self.has_closed_form() {
             return by_composites(arm, at, [&zeros(n), &zeros(n), multiplier]).driven;
@@ -228,7 +220,7 @@ impl Formulation {
 #[derive(Clone, Debug)]
 pub struct OfAccelerations<'a, S> {
     /// X_ki, zero unless joints k and i move.
-    x: Vec<Vec<S>>,
+    x: Matrix<S>,
     moves: &'a [bool],
 }
 
@@ -247,7 +239,7 @@ impl<'a, S: Scalar> OfAccelerations<'a, S> {
     }
 
     /// Returns ∂²(λᵀq̈)/∂q∂q, from ∂²(μᵀτ)/∂q∂q and ∂τ/∂q.
-    pub fn by_positions(&self, curvatures: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
+    pub fn by_positions(&self, curvatures: &[Vec<S>], slopes: &[Vec<S>]) -> Matrix<S> {
         self.entries(|k, m| {
             let both = plus(&self.along(k, slopes, m), &self.along(m, slopes, k));
             minus(&both, &curvatures[k][m])
@@ -255,21 +247,17 @@ impl<'a, S: Scalar> OfAccelerations<'a, S> {
     }
 
     /// Returns ∂²(λᵀq̈)/∂q∂q̇, from ∂²(μᵀτ)/∂q∂q̇ and ∂τ/∂q̇.
-    pub fn by_position_and_velocity(
-        &self,
-        curvatures: &[Vec<S>],
-        slopes: &[Vec<S>],
-    ) -> Vec<Vec<S>> {
+    pub fn by_position_and_velocity(&self, curvatures: &[Vec<S>], slopes: &[Vec<S>]) -> Matrix<S> {
         self.entries(|k, m| minus(&self.along(k, slopes, m), &curvatures[k][m]))
     }
 
     /// Returns ∂²(λᵀq̈)/∂q̇∂q̇, from ∂²(μᵀτ)/∂q̇∂q̇.
-    pub fn by_velocities(&self, curvatures: &[Vec<S>]) -> Vec<Vec<S>> {
+    pub fn by_velocities(&self, curvatures: &[Vec<S>]) -> Matrix<S> {
         self.entries(|k, m| negative(&curvatures[k][m]))
     }
 
     /// Returns ∂²(λᵀq̈)/∂τ∂q: row i has the slopes of (D⁻¹λ)_i.
-    pub fn by_torque_and_position(&self) -> Vec<Vec<S>> {
+    pub fn by_torque_and_position(&self) -> Matrix<S> {
         self.entries(|i, k| negative(&self.x[k][i]))
     }
 
@@ -279,7 +267,7 @@ impl<'a, S: Scalar> OfAccelerations<'a, S> {
         total(moving.map(|i| times(&self.x[k][i], &slopes[i][m])))
     }
 
-    fn entries(&self, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+    fn entries(&self, entry: impl Fn(usize, usize) -> S) -> Matrix<S> {
         let n = self.moves.len();
         matrix(n, n, |k, m| match self.moves[k] && self.moves[m] {
             true => entry(k, m),

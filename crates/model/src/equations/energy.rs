@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::arm::{Posed, Step};
+use super::arm::Posed;
 use super::dalembert::{Dalembert, Part};
 use super::derivatives::{constants, still};
 use super::matrix::*;
@@ -38,40 +38,24 @@ impl Formulation {
     }
 
     /// Returns C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
-    pub fn coriolis_matrix<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Vec<Vec<S>> {
+    pub fn coriolis_matrix<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Matrix<S> {
         let c = contracted(&self.christoffel(arm, at), qd);
         match arm.floats {
             false => c,
-            true => {
-                let of_base = arm.of_drift(&self.inertia(arm, at), qd);
-                c.iter()
-                    .zip(&of_base)
-                    .map(|(c, base)| sums(c, base))
-                    .collect()
-            }
+            true => matrix_sum(&c, &arm.of_drift(&self.inertia(arm, at), qd)),
         }
     }
 
-    /// Returns D a + C v + c + (b + F∘r)∘v, length n: Coulomb friction is taken as the
-    /// damping that it is at q̇, as C is taken at q̇. A recursion gives C v, which is bilinear
-    /// in q̇ and v, as h of half their sum less h of half their difference, and D [q̇, v] / 2 of a base
-    /// that floats.
-    pub fn passivity<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &At<S>,
-        qd: &[S],
-        [v, a]: [&[S]; 2],
-    ) -> Vec<S> {
-        let load = match self {
+    /// Returns D a + C v + c + (b + F∘r)∘v, length n: Coulomb friction is taken as the damping that
+    /// it is at q̇, as C is. A recursion gives C v, which is bilinear in q̇ and v, as h of half their
+    /// sum less h of half their difference, and D [q̇, v] / 2 of a base that floats.
+    pub fn passivity<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, [qd, v, a]: [&[S]; 3]) -> Vec<S> {
+        let load: Vec<S> = match self {
             Self::LagrangeEuler | Self::Dalembert => {
                 let (d, c) = (self.inertia(arm, at), self.coriolis_matrix(arm, at, qd));
-                let rows = d
-                    .iter()
-                    .zip(&c)
-                    .zip(self.gravity(arm, at))
-                    .map(|((d, c), load)| plus(&plus(&product(d, a), &product(c, v)), &load));
-                rows.collect::<Vec<S>>()
+                let gravity = self.gravity(arm, at);
+                let both = |i: usize| plus(&product(&d[i], a), &product(&c[i], v));
+                (0..d.len()).map(|i| plus(&both(i), &gravity[i])).collect()
             }
             _ => {
                 let of = |combine: fn(&S, &S) -> S| -> Vec<S> {
@@ -90,7 +74,7 @@ impl Formulation {
     }
 
     /// Returns D^rot or D^tran, n×n, the armature in neither.
-    pub fn inertia_part<S: Scalar>(self, part: Part, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    pub fn inertia_part<S: Scalar>(self, part: Part, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         if self != Self::Dalembert {
             return self.inertia(&part.of(arm), at);
         }
@@ -125,7 +109,7 @@ impl Formulation {
 }
 
 /// Returns C_ik = Σ_m h_ikm q̇_m
-pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
+pub fn contracted<S: Scalar>(h: &[Matrix<S>], qd: &[S]) -> Matrix<S> {
     h.iter().map(|h| products(h, qd)).collect()
 }
 
@@ -154,14 +138,11 @@ fn base_lever<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
 
 /// Returns Σ_j m_j r_j from the base's origin in the axes of frame 0, link by link.
 fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
-    let base = Columns {
-        origin: base_lever(arm),
-        ..Columns::identity()
-    };
-    let steps: Vec<Step<S>> = arm.steps(at).collect();
+    let mut base = Columns::identity();
+    base.origin = base_lever(arm);
     let mut moment = zero_vector();
     arm.outward(&base, |i, before| {
-        let pose = steps[i].append(before);
+        let pose = arm.step(i, at).append(before);
         let centre = pose.apply(&arm.links[i].com, &S::one());
         moment = sum(&moment, &scaled(&arm.links[i].mass, &centre));
         pose
@@ -170,24 +151,21 @@ fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
 }
 
 fn first_moment<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
-    let steps: Vec<Step<S>> = arm.steps(at).collect();
     let (mut moment, mut mass) = (zero_vector(), S::zero());
     arm.inward(|i, arrived: Vec<(usize, (Vector<S>, S))>| {
-        let (mut subtree_moment, mut subtree_mass) = (zero_vector(), S::zero());
+        let (mut tree_moment, mut tree_mass) = (zero_vector(), S::zero());
         for (_, (moment, mass)) in &arrived {
-            (subtree_moment, subtree_mass) =
-                (sum(&subtree_moment, moment), plus(&subtree_mass, mass));
+            (tree_moment, tree_mass) = (sum(&tree_moment, moment), plus(&tree_mass, mass));
         }
-        let (step, link) = (&steps[i], &arm.links[i]);
-        subtree_moment = sum(&subtree_moment, &scaled(&link.mass, &link.com));
-        subtree_mass = plus(&subtree_mass, &link.mass);
-        let (lever, turned) = (step.lever(), step.to_previous(&subtree_moment));
-        subtree_moment = sum(&turned, &scaled(&subtree_mass, &lever));
+        let (step, link) = (arm.step(i, at), &arm.links[i]);
+        tree_moment = sum(&tree_moment, &scaled(&link.mass, &link.com));
+        tree_mass = plus(&tree_mass, &link.mass);
+        let (lever, turned) = (step.lever(), step.to_previous(&tree_moment));
+        tree_moment = sum(&turned, &scaled(&tree_mass, &lever));
         if arm.carrier(i).is_none() {
-            moment = sum(&moment, &subtree_moment);
-            mass = plus(&mass, &subtree_mass);
+            (moment, mass) = (sum(&moment, &tree_moment), plus(&mass, &tree_mass));
         }
-        ((subtree_moment, subtree_mass), ())
+        ((tree_moment, tree_mass), ())
     });
     match &arm.base {
         None => moment,

@@ -8,16 +8,16 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{minus, negative, over, symmetric, times, total, zeros};
+use super::matrix::*;
 use crate::scalar::{Divide, Scalar};
 
 /// The factors of a symmetric matrix, of which all unknowns but the first few are eliminated.
 #[derive(Clone, Debug)]
 pub struct Factor<S> {
     /// d_k on the diagonal; of the unknowns that are left, the lower half of their matrix.
-    rest: Vec<Vec<S>>,
+    rest: Matrix<S>,
     /// `upper[k][i]` = U_ik, i < k, of those that are eliminated.
-    upper: Vec<Vec<S>>,
+    upper: Matrix<S>,
     /// 1/d_k of those.
     inverses: Vec<S>,
     kept: usize,
@@ -31,7 +31,7 @@ impl<S: Divide> Factor<S> {
 
     /// Eliminates all unknowns but the first `kept`; the upper half of the matrix is not read.
     pub(super) fn partial(matrix: &[Vec<S>], kept: usize) -> Factor<S> {
-        let mut rest: Vec<Vec<S>> = matrix.to_vec();
+        let mut rest: Matrix<S> = matrix.to_vec();
         let (mut upper, mut inverses) = (Vec::new(), Vec::new());
         for k in (kept..matrix.len()).rev() {
             let row: Vec<S> = rest[k][..k].to_vec();
@@ -79,6 +79,12 @@ impl<S: Divide> Factor<S> {
         self.eliminate(b, |_, x| x.clone())
     }
 
+    /// Returns U⁻¹ Aᵀ over these joints, a row for each of A's.
+    pub(super) fn eliminated_rows(&self, rows: &[Vec<S>], joints: &[usize]) -> Matrix<S> {
+        let of_joints = rows.iter().map(|row| picked(row, joints));
+        of_joints.map(|row| self.eliminated(&row)).collect()
+    }
+
     /// Returns b of the first unknowns, the others eliminated, then these if the first vanish.
     pub(super) fn halfway(&self, b: &[S]) -> Vec<S> {
         self.eliminate(b, |k, x| times(x, &self.inverses[k]))
@@ -114,10 +120,10 @@ impl<S: Divide> Factor<S> {
     }
 
     /// Returns D⁻¹ = U⁻ᵀ diag(1/d) U⁻¹, n×n, symmetric.
-    pub fn inverse(&self) -> Vec<Vec<S>> {
+    pub fn inverse(&self) -> Matrix<S> {
         let n = self.upper.len();
         // [k][i] = (U⁻¹)_ik, i ≤ k: U U⁻¹ = 1 column by column.
-        let mut inverse: Vec<Vec<S>> = Vec::with_capacity(n);
+        let mut inverse: Matrix<S> = Vec::with_capacity(n);
         for k in 0..n {
             let mut column = alloc::vec![S::zero(); k];
             column.push(S::one());
@@ -130,10 +136,8 @@ impl<S: Divide> Factor<S> {
             }
             inverse.push(column);
         }
-        let scaled: Vec<Vec<S>> = inverse.iter().map(|column| self.scaled(column)).collect();
-        symmetric(n, |i, k| {
-            total((0..=k).map(|l| times(&scaled[i][l], &inverse[k][l])))
-        })
+        let scaled: Matrix<S> = inverse.iter().map(|column| self.scaled(column)).collect();
+        symmetric(n, |i, k| product(&scaled[i], &inverse[k]))
     }
 }
 
@@ -143,7 +147,7 @@ pub(crate) fn picked<T: Clone>(values: &[T], joints: &[usize]) -> Vec<T> {
 }
 
 /// Returns a matrix over these joints alone.
-pub fn submatrix<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Vec<Vec<S>> {
+pub fn submatrix<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Matrix<S> {
     joints.iter().map(|&i| picked(&matrix[i], joints)).collect()
 }
 
@@ -177,15 +181,11 @@ mod tests {
             let factor = Factor::new(&matrix);
             let b: Vec<Field> = (0..n).map(|_| points.field()).collect();
             let (x, inverse) = (factor.solve(&b), factor.inverse());
-            let dot = |a: &[Field], b: &[Field]| {
-                let products = a.iter().zip(b).map(|(a, b)| a.mul(b));
-                products.fold(Field::ZERO, |sum, product| sum.add(&product))
-            };
             for i in 0..n {
-                assert_eq!(dot(&matrix[i], &x), b[i]);
+                assert_eq!(product(&matrix[i], &x), b[i]);
                 for (k, column) in inverse.iter().enumerate() {
                     let one = if i == k { Field::ONE } else { Field::ZERO };
-                    assert_eq!(dot(&matrix[i], column), one);
+                    assert_eq!(product(&matrix[i], column), one);
                 }
             }
         }

@@ -24,7 +24,7 @@ use super::arm::Posed;
 use super::energy::moving;
 use super::matrix::*;
 use super::{Arm, At, JointPosition, Link, SinCosPair};
-use crate::robot::JointKind;
+use crate::robot::JointKind::{Prismatic, Revolute};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
@@ -36,17 +36,11 @@ impl<S: Scalar> Link<S> {
     pub fn of_base(body: Link<S>) -> Vec<Link<S>> {
         // z of each frame is x of the one before: after three turns the axes are as they were.
         let next = Columns::turned(three(|i| identity()[(i + 1) % 3].clone()));
-        let joint = |k: usize| Link {
-            kind: match k < 3 {
-                true => JointKind::Prismatic,
-                false => JointKind::Revolute,
-            },
-            place: Some(next.clone()),
-            ..if k + 1 == BASE_COORDINATES {
-                body.clone()
-            } else {
-                Link::still()
-            }
+        let joint = |k: usize| {
+            let row = if k < 5 { Link::still() } else { body.clone() };
+            let kind = if k < 3 { Prismatic } else { Revolute };
+            let place = Some(next.clone());
+            Link { kind, place, ..row }
         };
         (0..BASE_COORDINATES).map(joint).collect()
     }
@@ -70,10 +64,6 @@ pub fn base_position<S: Scalar>() -> [JointPosition<S>; BASE_COORDINATES] {
         true => JointPosition::Prismatic(S::zero()),
         false => JointPosition::Revolute(SinCosPair::straight()),
     })
-}
-
-fn parts<S: Scalar>(rates: &[S]) -> [Vector<S>; 2] {
-    [0, 3].map(|from| three(|i| rates[from + i].clone()))
 }
 
 impl<S: Scalar> Arm<S> {
@@ -120,16 +110,16 @@ impl<S: Scalar> Arm<S> {
     }
 
     /// Returns −D Ė(q̇)
-    pub(super) fn of_drift(&self, d: &[Vec<S>], qd: &[S]) -> Vec<Vec<S>> {
+    pub(super) fn of_drift(&self, d: &[Vec<S>], qd: &[S]) -> Matrix<S> {
         self.of_base(d, |e| self.drift(qd, e))
     }
 
     /// Returns D times the slopes of −Ė(q̇) q̇ by q̇.
-    pub(super) fn of_drift_slopes(&self, d: &[Vec<S>], qd: &[S]) -> Vec<Vec<S>> {
+    pub(super) fn of_drift_slopes(&self, d: &[Vec<S>], qd: &[S]) -> Matrix<S> {
         self.of_base(d, |e| sums(&self.drift(qd, e), &self.drift(e, qd)))
     }
 
-    fn of_base(&self, d: &[Vec<S>], column: impl Fn(&[S]) -> Vec<S>) -> Vec<Vec<S>> {
+    fn of_base(&self, d: &[Vec<S>], column: impl Fn(&[S]) -> Vec<S>) -> Matrix<S> {
         let n = d.len();
         let columns = (0..n).map(|k| match k < self.base_joints() {
             true => products(d, &column(&unit(n, k))),
@@ -148,11 +138,9 @@ impl<S: Scalar> Arm<S> {
         let (mut arm, at) = moving(self, at, &zeros(n));
         if let Some(axis) = coordinate.checked_sub(3) {
             let turn = three(|i| if i == axis { S::one() } else { S::zero() });
-            let rate = cross(&self.gravity, &turn);
-            arm.gravity = three(|i| Dual {
-                value: self.gravity[i].clone(),
-                rate: rate[i].clone(),
-            });
+            for (component, rate) in arm.gravity.iter_mut().zip(cross(&self.gravity, &turn)) {
+                component.rate = rate;
+            }
         }
         (arm, at)
     }

@@ -11,7 +11,7 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{plus, sums, times};
+use super::matrix::{Matrix, plus, sums, times};
 use crate::number::Exact;
 use crate::robot::Robot;
 use crate::scalar::Scalar;
@@ -79,12 +79,10 @@ pub fn gather<S: Scalar>(
     stride: usize,
     values: &mut [S],
 ) {
-    let following: Vec<FollowerLine<S>> = following
-        .iter()
-        .filter_map(|line| line.among(rows))
-        .collect();
+    let lines = following.iter().filter_map(|line| line.among(rows));
+    let among_rows: Vec<FollowerLine<S>> = lines.collect();
     for block in values.chunks_mut((rows.len() * stride).max(1)) {
-        for line in &following {
+        for line in &among_rows {
             for i in 0..stride {
                 let part = line.motion(&block[line.row * stride + i]);
                 let sum = &mut block[line.leader * stride + i];
@@ -104,16 +102,13 @@ pub fn gathered<S: Scalar>(following: &[FollowerLine<S>], mut loads: Vec<S>) -> 
 }
 
 /// Returns M S
-pub fn gathered_rows<S: Scalar>(following: &[FollowerLine<S>], rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
+pub fn gathered_rows<S: Scalar>(following: &[FollowerLine<S>], rows: Matrix<S>) -> Matrix<S> {
     let rows = rows.into_iter();
     rows.map(|row| gathered(following, row)).collect()
 }
 
 /// Returns Sᵀ M
-pub fn gathered_columns<S: Scalar>(
-    following: &[FollowerLine<S>],
-    mut m: Vec<Vec<S>>,
-) -> Vec<Vec<S>> {
+pub fn gathered_columns<S: Scalar>(following: &[FollowerLine<S>], mut m: Matrix<S>) -> Matrix<S> {
     for line in following {
         let part: Vec<S> = m[line.row].iter().map(|x| line.motion(x)).collect();
         m[line.leader] = sums(&m[line.leader], &part);
@@ -122,7 +117,7 @@ pub fn gathered_columns<S: Scalar>(
 }
 
 /// Returns Sᵀ D S, symmetric.
-pub fn gathered_square<S: Scalar>(following: &[FollowerLine<S>], d: Vec<Vec<S>>) -> Vec<Vec<S>> {
+pub fn gathered_square<S: Scalar>(following: &[FollowerLine<S>], d: Matrix<S>) -> Matrix<S> {
     gathered_columns(following, gathered_rows(following, d))
 }
 

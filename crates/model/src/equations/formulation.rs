@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::dalembert::Dalembert;
 use super::lagrange_euler::{self, LagrangeEuler};
-use super::matrix::{halved, minus, products, sums, symmetric, symmetric_each, unit, zeros};
+use super::matrix::*;
 use super::newton_euler::table1;
 use super::newton_euler::table2::{self, Moment};
 use super::{Arm, At};
@@ -78,7 +78,7 @@ impl Formulation {
     }
 
     /// Returns D, n×n, symmetric, armature on the diagonal.
-    pub fn inertia<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    pub fn inertia<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inertia(),
             Self::Dalembert => Dalembert::new(arm, at).inertia(),
@@ -86,7 +86,7 @@ impl Formulation {
             _ => {
                 let (arm, n) = (arm.weightless(), at.len());
                 let column = |k: usize| self.inverse_dynamics(&arm, at, &zeros(n), &unit(n, k));
-                let columns: Vec<Vec<S>> = (0..n).map(column).collect();
+                let columns: Matrix<S> = (0..n).map(column).collect();
                 symmetric(n, |i, k| columns[k][i].clone())
             }
         }
@@ -120,9 +120,8 @@ impl Formulation {
         }
     }
 
-    /// Returns `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m: of a base that floats those in its
-    /// six joints.
-    pub fn christoffel<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<Vec<S>>> {
+    /// Returns `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m; of a floating base in its joints.
+    pub fn christoffel<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Matrix<S>> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).christoffel(),
             Self::Dalembert => {
@@ -131,11 +130,9 @@ impl Formulation {
             }
             // In all joints: of a floating base's six, too, q̈ is zero.
             _ => {
-                let arm = &Arm {
-                    floats: false,
-                    ..arm.clone()
-                };
-                polarised(at.len(), &|qd| self.velocity_terms(arm, at, qd))
+                let mut fixed = arm.clone();
+                fixed.floats = false;
+                polarised(at.len(), &|qd| self.velocity_terms(&fixed, at, qd))
             }
         }
     }
@@ -143,15 +140,15 @@ impl Formulation {
 
 /// Returns `h[i][k][m]` = h_ikm of any h(q̇) by polarisation: h_ikk = h_i(e_k) and
 /// h_ikm = (h_i(e_k + e_m) − h_i(e_k) − h_i(e_m)) / 2.
-fn polarised<S: Scalar>(n: usize, velocity_terms: &dyn Fn(&[S]) -> Vec<S>) -> Vec<Vec<Vec<S>>> {
-    let squares: Vec<Vec<S>> = (0..n).map(|k| velocity_terms(&unit(n, k))).collect();
+fn polarised<S: Scalar>(n: usize, velocity_terms: &dyn Fn(&[S]) -> Vec<S>) -> Vec<Matrix<S>> {
+    let squares: Matrix<S> = (0..n).map(|k| velocity_terms(&unit(n, k))).collect();
     let pair = |k: usize, m: usize| {
         let mut both = unit(n, k);
         both[m] = S::one();
         velocity_terms(&both)
     };
     let row = |m: usize| (0..m).map(|k| pair(k, m)).collect();
-    let pairs: Vec<Vec<Vec<S>>> = (0..n).map(row).collect();
+    let pairs: Vec<Matrix<S>> = (0..n).map(row).collect();
     symmetric_each(n, |i, m, k| match m == k {
         true => squares[k][i].clone(),
         false => {

@@ -29,7 +29,7 @@ pub fn solved<S: Divide>(d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) ->
 }
 
 /// Returns D⁻¹ over the joints that move; zero in the rows and columns of the others.
-pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
+pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Matrix<S> {
     let (free, n) = (free(moves), moves.len());
     let inverse = Factor::new(&submatrix(d, &free)).inverse();
     let rows = inverse.iter().map(|row| scatter(row, &free, n));
@@ -46,7 +46,7 @@ pub(crate) fn hold<S: Scalar>(matrix: &mut [Vec<S>], moves: &[bool]) {
 }
 
 /// Returns −D⁻¹ times the slopes of the torques: those of q̈.
-pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
+pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Matrix<S> {
     let columns = columns_of(slopes);
     let entry = |i: usize, k: usize| negative(&product(&inverse[i], &columns[k]));
     matrix(inverse.len(), columns.len(), entry)
@@ -63,7 +63,7 @@ fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
 
 impl Formulation {
     /// Returns Sᵀ D S, n×n: D gathered at the leaders of joints that follow.
-    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         gathered_square(&arm.following, self.inertia(arm, at))
     }
 
@@ -88,12 +88,7 @@ impl Formulation {
 
     /// Returns D⁻¹ over the joints that move, zero of the others. A recursion gives its columns as
     /// the accelerations under unit torques, at rest and without weight.
-    pub fn inertia_inverse<S: Divide>(
-        self,
-        arm: &Arm<S>,
-        at: &At<S>,
-        moves: &[bool],
-    ) -> Vec<Vec<S>> {
+    pub fn inertia_inverse<S: Divide>(self, arm: &Arm<S>, at: &At<S>, moves: &[bool]) -> Matrix<S> {
         if self.has_closed_form() || !arm.following.is_empty() {
             return inverted(&self.gathered_inertia(arm, at), moves);
         }
@@ -115,7 +110,7 @@ impl Formulation {
         qd: &[S],
         tau: &[S],
         moves: &[bool],
-    ) -> [Vec<Vec<S>>; 2] {
+    ) -> [Matrix<S>; 2] {
         if self.has_closed_form() || !arm.following.is_empty() {
             let inverse = self.inertia_inverse(arm, at, moves);
             let qdd = self.forward_dynamics(arm, at, qd, tau, moves);
@@ -133,15 +128,12 @@ impl Formulation {
             }
             let grown = with_rates(qd, growth);
             // Coulomb friction reduces the torques by its value, and their rates by its own slope.
-            let left: Vec<Dual<S>> = tau
-                .iter()
-                .zip(&rubbed)
-                .zip(growth)
-                .map(|((tau, [torque, slope]), growth)| Dual {
-                    value: minus(tau, torque),
-                    rate: negative(&times(slope, growth)),
-                })
-                .collect();
+            let loads = tau.iter().zip(&rubbed).zip(growth);
+            let rest = loads.map(|((tau, [torque, slope]), growth)| Dual {
+                value: minus(tau, torque),
+                rate: negative(&times(slope, growth)),
+            });
+            let left: Vec<Dual<S>> = rest.collect();
             let qdd = articulated::forward_dynamics(&arm, &at, [&grown, &left], moves);
             arm.coordinate_rates(&grown, qdd)
         };

@@ -40,12 +40,6 @@ impl Axes {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Rows(u8);
 
-impl Default for Rows {
-    fn default() -> Self {
-        Rows::ALL
-    }
-}
-
 impl Rows {
     /// All six.
     pub const ALL: Rows = Rows(0b11_1111);
@@ -63,10 +57,8 @@ impl Rows {
         }
         let mut rows = 0u8;
         for name in word.split('_') {
-            let bit = 1
-                << Rows::NAMES
-                    .into_iter()
-                    .position(|candidate| candidate == name)?;
+            let mut names = Rows::NAMES.into_iter();
+            let bit = 1 << names.position(|candidate| candidate == name)?;
             // In order, and none twice: one word for one choice.
             if rows >= bit {
                 return None;
@@ -99,9 +91,8 @@ impl Rows {
 
     /// Returns these of six.
     pub fn pick<T: Clone>(self, six: &[T]) -> Vec<T> {
-        self.indices()
-            .filter_map(|row| six.get(row).cloned())
-            .collect()
+        let rows = self.indices();
+        rows.filter_map(|row| six.get(row).cloned()).collect()
     }
 }
 
@@ -158,7 +149,7 @@ impl<S> Default for Frames<S> {
             named: Vec::new(),
             joint: None,
             axes: Axes::default(),
-            rows: Rows::default(),
+            rows: Rows::ALL,
             contacts: Vec::new(),
         }
     }
@@ -172,11 +163,8 @@ impl<S> Frames<S> {
 
     /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Frames<T> {
-        let links = self
-            .links
-            .iter()
-            .map(|pose| pose.as_ref().map(|pose| pose.map(&mut f)))
-            .collect();
+        let poses = self.links.iter();
+        let links = poses.map(|pose| Some(pose.as_ref()?.map(&mut f))).collect();
         let named = self.named.iter().map(|frame| NamedFrame {
             name: frame.name.clone(),
             joint: frame.joint,

@@ -9,12 +9,10 @@
 //! q̇ = 0 is a state like others and derivatives exist everywhere. At a speed of
 //! w_i the friction is F_i/√2, at 10 w_i less than 0.5 % below F_i.
 //!
-//! All but r_i is a polynomial. So r_i is an input of formulas, as sines and
-//! cosines are: whoever knows q̇ computes it ([`per_speed`]), and what holds for
-//! any r_i holds for this one. Coulomb friction at a velocity is then a damping,
-//! F_i r_i, beside b_i; its slope is ∂(F_i q̇_i r_i)/∂q̇_i = F_i w_i² r_i³, which is
-//! written so everywhere: F_i (r_i − q̇_i² r_i³) is the same number, but another
-//! polynomial, and loses its digits to a difference at high speed.
+//! All but r_i is a polynomial. So r_i is an input of formulas, as sines and cosines are
+//! ([`per_speed`]): what holds for any r_i holds for this one. Coulomb friction at a velocity is then
+//! a damping, F_i r_i, beside b_i; its slope is F_i w_i² r_i³, written so everywhere:
+//! F_i (r_i − q̇_i² r_i³) is the same number, and loses its digits to a difference at high speed.
 
 use super::matrix::{negative, plus, times, twice};
 use crate::scalar::{Divide, Scalar};
@@ -48,10 +46,8 @@ pub fn per_speed<S: Divide>(qd: &S, square_of_width: &S, sqrt: impl Fn(&S) -> S)
 impl<S: Scalar> Friction<S> {
     /// Returns the friction of a joint that moves freely.
     pub fn none() -> Friction<S> {
-        Friction {
-            viscous: S::zero(),
-            coulomb: None,
-        }
+        let (viscous, coulomb) = (S::zero(), None);
+        Friction { viscous, coulomb }
     }
 
     /// Returns b + F r: what the velocity is multiplied by.

@@ -46,10 +46,8 @@ impl<S> Arm<S> {
             };
             Link { parent, ..link }
         });
-        let links = base_links
-            .chain(joints)
-            .map(|link| link.map(&mut *scalar))
-            .collect();
+        let exact_links = base_links.chain(joints);
+        let links = exact_links.map(|link| link.map(&mut *scalar)).collect();
         let in_row = |row: usize, placement: Option<&Placement>| {
             let link = places[row].as_ref().map(|place| place.link.clone());
             match (link, placement.map(exact_pose)) {
@@ -57,13 +55,11 @@ impl<S> Arm<S> {
                 (link, pose) => link.or(pose),
             }
         };
-        let exact_frames = rows
-            .iter()
-            .enumerate()
-            .map(|(row, joint)| in_row(row, joint.frame.as_ref()));
-        let link_frames = core::iter::repeat_n(None, first)
-            .chain(exact_frames)
-            .map(|pose| pose.map(|pose| pose.map(&mut *scalar)))
+        let numbered = rows.iter().enumerate();
+        let of_rows = numbered.map(|(row, joint)| in_row(row, joint.frame.as_ref()));
+        let exact_frames = core::iter::repeat_n(None, first).chain(of_rows);
+        let link_frames = exact_frames
+            .map(|pose| Some(pose?.map(&mut *scalar)))
             .collect();
         let named = robot.frames.iter().map(|frame| {
             let pose = match frame.row {
@@ -170,10 +166,8 @@ impl Place {
         let d = dot(&before.origin, &before.axes[2]);
         let origin = difference(&before.origin, &scaled(&d, &before.axes[2]));
         let axes = turned_least(&before.axes[2]).unwrap_or_else(|| before.axes.clone());
-        let theta = SinCosPair {
-            sin: dot(&axes[1], &before.axes[0]),
-            cos: dot(&axes[0], &before.axes[0]),
-        };
+        let [cos, sin] = [0, 1].map(|axis| dot(&axes[axis], &before.axes[0]));
+        let theta = SinCosPair { sin, cos };
         Place {
             before: Columns { axes, origin },
             theta,
@@ -234,13 +228,11 @@ impl<S: Scalar + PartialEq> Arm<S> {
     /// set to zero:
     ///
     /// - a_i and d_i of the leading prismatic joints;
-    /// - d_i of the first revolute joint (modified DH: a_i too, both act before
-    ///   anything turns), and of the joints after it as long as their axes are
-    ///   parallel, sin α = 0.
+    /// - d_i of the first revolute joint (modified DH: a_i too, both act before anything turns), and
+    ///   of the joints after it as long as their axes are parallel, sin α = 0.
     ///
-    /// In exact arithmetic no output changes. In floating point a base that
-    /// stands 1e6 m away would take every digit of an f32 torque with it: the
-    /// length cancels only after it has been multiplied and rounded.
+    /// In exact arithmetic no output changes. In floating point a base that stands 1e6 m away would
+    /// take every digit of an f32 torque: the length cancels only after it has been rounded.
     pub fn fold_base(mut self) -> Self {
         if self.links.iter().any(|link| link.place.is_some()) {
             self.fold_places();
@@ -311,12 +303,8 @@ pub fn pose_of<S: Scalar>(
     length: impl Fn(&Rational) -> S,
 ) -> Columns<S> {
     let [roll, pitch, yaw] = placement.rpy.each_ref().map(pair);
-    let turned = Columns::identity()
-        .turn_z(&yaw)
-        .turn_y(&pitch)
-        .turn_x(&roll);
-    Columns {
-        origin: placement.xyz.each_ref().map(length),
-        ..turned
-    }
+    let turned = Columns::identity().turn_z(&yaw).turn_y(&pitch);
+    let mut pose = turned.turn_x(&roll);
+    pose.origin = placement.xyz.each_ref().map(length);
+    pose
 }

@@ -68,7 +68,7 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector<S>; 2]
         let (link, [lever, turned]) = (&arm.links[j], &levers[j]);
         let before = match arm.convention {
             Convention::Standard => frames[j].clone(),
-            Convention::Modified => link.step(arm.convention, &at[j]).before(frames[j].clone()),
+            Convention::Modified => arm.step(j, at).before(frames[j].clone()),
         };
         let axis = before.axes[2].clone();
         if link.kind == JointKind::Prismatic {
@@ -122,8 +122,8 @@ pub(super) fn columns_across<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<[Vector
         }
         let mut linear = across(&Columns::identity(), before);
         if arm.convention == Convention::Modified {
-            let unturned = unturned(&at[j]);
-            linear = link.step(arm.convention, &unturned).to_previous(&linear);
+            let (step, at) = (arm.step(j, at), &unturned(&at[j]));
+            linear = Step { at, ..step }.to_previous(&linear);
         }
         [frames[0].rotate(&carried(linear, j, 0)), axis]
     };

@@ -26,20 +26,16 @@ pub fn poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
 
 /// Returns the pose of every link's own frame, in base axes.
 pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
-    let poses =
-        poses(arm, at)
-            .into_iter()
-            .enumerate()
-            .map(|(link, pose)| match arm.frames.of_link(link) {
-                None => pose,
-                Some(frame) => pose.then(frame),
-            });
+    let of_rows = poses(arm, at).into_iter().enumerate();
+    let poses = of_rows.map(|(link, pose)| match arm.frames.of_link(link) {
+        None => pose,
+        Some(frame) => pose.then(frame),
+    });
     poses.collect()
 }
 
 fn poses_from<S: Scalar>(start: &Columns<S>, arm: &Arm<S>, at: &At<S>) -> Vec<Columns<S>> {
-    let steps: Vec<Step<S>> = arm.steps(at).collect();
-    arm.outward(start, |link, before| steps[link].append(before))
+    arm.outward(start, |link, before| arm.step(link, at).append(before))
 }
 
 pub(super) fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
@@ -59,10 +55,9 @@ pub(super) fn at_lever<S: Scalar>(arm: &Arm<S>, hand: Columns<S>, lever: Vector<
 }
 
 impl Formulation {
-    /// Returns the pose of the hand, ⁰A_n but for base and tool: the recursions in link
-    /// axes go from the hand inward, which is less work alone, with three axes or with
-    /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
-    /// of a Jacobian, in base axes or in the joints' own.
+    /// Returns the pose of the hand, ⁰A_n but for base and tool: the recursions in link axes go from
+    /// the hand inward, which is less work, with three axes or with two; Lagrange–Euler multiplies
+    /// outward; the others add the levers of a Jacobian, in base axes or in the joints' own.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Columns<S> {
         let (arm, at) = arm.to_hand(at);
         let (arm, at) = (&*arm, &*at);
@@ -76,17 +71,15 @@ impl Formulation {
     }
 
     /// Returns J, 6×n, the linear over the angular velocity of the hand, in the arm's [`Axes`].
-    pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         let (n, way) = (at.len(), arm.way_to_hand());
         let (arm, at) = arm.to_hand(at);
         let at = &*at;
-        let by_links = matches!(
-            self,
-            Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences
-        );
-        let columns = match arm.frames.axes {
-            Axes::Local if by_links => local_columns(&arm, at),
-            axes => {
+        let columns = match (arm.frames.axes, self) {
+            (Axes::Local, Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences) => {
+                local_columns(&arm, at)
+            }
+            (axes, _) => {
                 let columns = self.mixed_columns(&arm, at).into_iter();
                 let hand = (axes != Axes::Mixed).then(|| self.hand(&arm, at));
                 let turned = |column| in_axes(axes, hand.as_ref(), column);
@@ -127,10 +120,9 @@ impl Formulation {
         for (column, qd) in self.mixed_columns(&arm, at).iter().zip(qd) {
             twist = [0, 1].map(|part| sum(&twist[part], &scaled(qd, &column[part])));
         }
-        let [v, omega] = &twist;
         let [linear, angular] = rate;
-        let linear = sum(&linear, &cross(v, omega));
-        in_axes(axes, Some(&self.hand(&arm, at)), [linear, angular])
+        let of_point = sum(&linear, &cross(&twist[0], &twist[1]));
+        in_axes(axes, Some(&self.hand(&arm, at)), [of_point, angular])
     }
 
     fn bias_acceleration<S: Scalar>(
@@ -156,13 +148,8 @@ impl Formulation {
 
     /// Returns the wrench of link i−1 on link i, gravity included, in base axes;
     /// the moment about the origin of frame i−1, or of frame i in modified DH.
-    pub fn wrenches<S: Scalar>(
-        self,
-        arm: &Arm<S>,
-        at: &At<S>,
-        qd: &[S],
-        qdd: &[S],
-    ) -> Vec<Wrench<S>> {
+    pub fn wrenches<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, rates: [&[S]; 2]) -> Vec<Wrench<S>> {
+        let [qd, qdd] = rates;
         let qdd = &*arm.accelerations(qd, qdd);
         let wrenches = match self {
             Self::LagrangeEuler => wrenches_by_poses(arm, at, qd, qdd),
@@ -181,13 +168,13 @@ impl Formulation {
         self,
         arm: &Arm<S>,
         at: &At<S>,
-        [qd, qdd]: [&[S]; 2],
+        rates: [&[S]; 2],
     ) -> Vec<Wrench<S>> {
-        let mut wrenches = self.wrenches(arm, at, qd, qdd);
+        let mut wrenches = self.wrenches(arm, at, rates);
         if (0..wrenches.len()).all(|link| arm.frames.of_link(link).is_none()) {
             return wrenches;
         }
-        let poses = poses(arm, at);
+        let (poses, base) = (poses(arm, at), arm.frame_0());
         for ((link, step), wrench) in arm.steps(at).enumerate().zip(&mut wrenches) {
             let Some(frame) = arm.frames.of_link(link) else {
                 continue;
@@ -196,11 +183,9 @@ impl Formulation {
                 Convention::Modified => poses[link].rotate(&frame.origin),
                 Convention::Standard => {
                     // The step's own origin is the lever: no difference of two large positions.
-                    let before = arm
-                        .carrier(link)
-                        .map(|carrier| poses[carrier].axes.clone())
-                        .unwrap_or_else(|| arm.frame_0().axes);
-                    step.append(&Columns::turned(before)).then(frame).origin
+                    let before = arm.carrier(link).map_or(&base, |carrier| &poses[carrier]);
+                    let turned = Columns::turned(before.axes.clone());
+                    step.append(&turned).then(frame).origin
                 }
             };
             wrench.moment = difference(&wrench.moment, &cross(&lever, &wrench.force));
@@ -215,11 +200,9 @@ fn wrenches_by_poses<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -
     let moving = poses_from(&Columns::identity(), &arm_moving, &at_moving);
     let still = poses_from(&Columns::identity(), arm, at);
     arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
-        let arrived = arrived
-            .iter()
-            .map(|(_, wrench)| wrench)
-            .fold(Wrench::zero(), |total, wrench| total.with(wrench));
-        let about_base = arrived.with(&inertial(arm, i, &still[i], &moving[i]));
+        let others = arrived.iter();
+        let carried = others.fold(Wrench::zero(), |total, (_, wrench)| total.with(wrench));
+        let about_base = carried.with(&inertial(arm, i, &still[i], &moving[i]));
         let Wrench { force, moment } = about_base.clone();
         let point = match (arm.convention, i) {
             (Convention::Modified, _) => still[i].origin.clone(),
@@ -335,10 +318,8 @@ fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
 
 /// Two axes travel, x and z; y is z × x.
 fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
-    let Columns {
-        axes: [mut x, _, mut z],
-        mut origin,
-    } = arm.in_last_frame();
+    let hand = arm.in_last_frame();
+    let ([mut x, _, mut z], mut origin) = (hand.axes, hand.origin);
     for step in arm.steps(at).rev() {
         let lever = step.lever();
         [x, z] = [&x, &z].map(|axis| step.to_previous(axis));
@@ -383,11 +364,7 @@ fn inertial<S: Scalar>(
     moving: &Columns<Twice<S>>,
 ) -> Wrench<S> {
     let body = PseudoInertia::of(&arm.links[i]);
-    let second = |v: &Vector<Twice<S>>| v.each_ref().map(|x| x.rate.rate.clone());
-    let accelerations = body.after(&Columns {
-        axes: moving.axes.each_ref().map(second),
-        origin: second(&moving.origin),
-    });
+    let accelerations = body.after(&moving.map(|x| x.rate.rate.clone()));
     let mass = &arm.links[i].mass;
     let first = scaled(mass, &pose.apply(&arm.links[i].com, &S::one()));
     let force = difference(&accelerations.origin, &scaled(mass, &arm.gravity));

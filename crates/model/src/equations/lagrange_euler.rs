@@ -30,18 +30,15 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     /// Returns the poses ⁰A_i, their derivatives U_ij and the products U_ij J_i.
     pub fn new(arm: &'a Arm<S>, at: &'a At<S>) -> Self {
         let n = arm.links.len();
-        let mut poses = Vec::with_capacity(n + 1);
-        poses.push(Columns::identity());
+        let mut poses = alloc::vec![Columns::identity()];
         let mut u: Vec<Vec<Columns<S>>> = Vec::with_capacity(n);
         for (i, step) in arm.steps(at).enumerate() {
             let append = |before: &Columns<S>| step.append(before);
             let carrier = arm.carrier(i);
             let before = &poses[carrier.map_or(0, |carrier| carrier + 1)];
             let pose = append(before);
-            let mut row: Vec<_> = match carrier {
-                None => Vec::new(),
-                Some(carrier) => u[carrier].iter().map(append).collect(),
-            };
+            let earlier = carrier.map_or(&[][..], |carrier| &u[carrier][..]);
+            let mut row: Vec<_> = earlier.iter().map(append).collect();
             // Joints on other branches do not move the link.
             row.resize(i, Columns::nothing());
             row.push(match step.convention {
@@ -51,26 +48,22 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             poses.push(pose);
             u.push(row);
         }
-        let uj = arm
-            .links
-            .iter()
-            .zip(&u)
-            .map(|(link, row)| {
-                let j = PseudoInertia::of(link);
-                row.iter().map(|u| j.after(u)).collect()
-            })
-            .collect();
+        let links = arm.links.iter().zip(&u);
+        let uj = links.map(|(link, row)| {
+            let j = PseudoInertia::of(link);
+            row.iter().map(|u| j.after(u)).collect()
+        });
         LagrangeEuler {
             arm,
             at,
             poses,
+            uj: uj.collect(),
             u,
-            uj,
         }
     }
 
     /// Returns D_ik = Σ_{j ≥ max(i,k)} Tr(U_jk J_j U_jiᵀ), n×n, armature on the diagonal.
-    pub fn inertia(&self) -> Vec<Vec<S>> {
+    pub fn inertia(&self) -> Matrix<S> {
         let n = self.arm.links.len();
         let mut d = symmetric(n, |i, k| {
             total((i..n).map(|j| self.u[j][k].trace_with(&self.uj[j][i])))
@@ -80,7 +73,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
     }
 
     /// Returns `h[i][k][m]` = h_ikm = Σ_{j ≥ max(i,k,m)} Tr(U_jkm J_j U_jiᵀ), n×n×n.
-    pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
+    pub fn christoffel(&self) -> Vec<Matrix<S>> {
         let n = self.arm.links.len();
         let second = self.second_derivatives();
         symmetric_each(n, |i, m, k| {
@@ -136,10 +129,8 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             let append = |before: &Columns<S>| step.append(before);
             let appended = |row: &Vec<Columns<S>>| row.iter().map(append).collect();
             let carrier = self.arm.carrier(i);
-            let mut of_link: Vec<Vec<Columns<S>>> = match carrier {
-                None => Vec::new(),
-                Some(carrier) => derivatives[carrier].iter().map(appended).collect(),
-            };
+            let earlier = carrier.map_or(&[][..], |carrier| &derivatives[carrier][..]);
+            let mut of_link: Vec<Vec<Columns<S>>> = earlier.iter().map(appended).collect();
             let between = of_link.len()..i;
             of_link.extend(between.map(|k| alloc::vec![Columns::nothing(); k + 1]));
             // k = i: Q_i enters at the joint itself.
@@ -177,10 +168,9 @@ impl<S: Scalar> PseudoInertia<S> {
         let first = scaled(&link.mass, &link.com);
         let half_trace = halved(&plus(&plus(&i.xx, &i.yy), &i.zz));
         let entry = |tensor: &S, r: usize, c: usize| {
-            let central_moment = if r == c {
-                minus(&half_trace, tensor)
-            } else {
-                negative(tensor)
+            let central_moment = match r == c {
+                true => minus(&half_trace, tensor),
+                false => negative(tensor),
             };
             plus(&central_moment, &times(&first[r], &link.com[c]))
         };
@@ -205,18 +195,16 @@ impl<S: Scalar> PseudoInertia<S> {
 }
 
 /// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, the full double sum: a pair k < m counts twice.
-pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
+pub fn velocity_terms<S: Scalar>(h: &[Matrix<S>], qd: &[S]) -> Vec<S> {
     let n = qd.len();
     let doubled: Vec<S> = qd.iter().map(twice).collect();
     let pairs = (0..n).flat_map(|k| (k..n).map(move |m| (k, m)));
-    let rates: Vec<(usize, usize, S)> = pairs
-        .map(|(k, m)| {
-            let second = if m == k { &qd[m] } else { &doubled[m] };
-            (k, m, times(&qd[k], second))
-        })
-        .collect();
-    let of_joint =
-        |h: &Vec<Vec<S>>| total(rates.iter().map(|(k, m, rate)| times(&h[*k][*m], rate)));
+    let products = pairs.map(|(k, m)| {
+        let second = if m == k { &qd[m] } else { &doubled[m] };
+        (k, m, times(&qd[k], second))
+    });
+    let rates: Vec<(usize, usize, S)> = products.collect();
+    let of_joint = |h: &Matrix<S>| total(rates.iter().map(|(k, m, rate)| times(&h[*k][*m], rate)));
     h.iter().map(of_joint).collect()
 }
 

@@ -38,7 +38,7 @@ pub enum HandAxes {
 /// An arm whose hand is seen from links.
 #[derive(Clone, Debug)]
 pub struct SeenHand<'a, S> {
-    formulation: Formulation,
+    by: Formulation,
     arm: &'a Arm<S>,
     at: &'a At<S>,
     /// The links of linear and of angular components; `None` for the axes asked for.
@@ -48,11 +48,7 @@ pub struct SeenHand<'a, S> {
 impl<'a, S: Scalar> SeenHand<'a, S> {
     /// Returns the hand in the axes of links. The linear part, and the angular one, stays in the
     /// axes asked for unless these are the base's and all three of its components are wanted.
-    pub fn new(
-        formulation: Formulation,
-        (arm, at): (&'a Arm<S>, &'a At<S>),
-        axes: HandAxes,
-    ) -> Self {
+    pub fn new(by: Formulation, (arm, at): (&'a Arm<S>, &'a At<S>), axes: HandAxes) -> Self {
         let last = arm.to_hand(at).1.len().saturating_sub(1);
         let links = match axes {
             HandAxes::Asked => [0, 0],
@@ -64,7 +60,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
             arm.frames.axes == Axes::Mixed && rows.filter(|row| row / 3 == part).count() == 3
         };
         SeenHand {
-            formulation,
+            by,
             arm,
             at,
             links: [0, 1].map(|part| (links[part] > 0 && whole(part)).then_some(links[part])),
@@ -72,10 +68,10 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     }
 
     /// Returns J′, m×n.
-    pub fn jacobian(&self) -> Vec<Vec<S>> {
+    pub fn jacobian(&self) -> Matrix<S> {
         self.picked(|part, link| match link {
             None => {
-                let six = self.formulation.jacobian(self.arm, self.at);
+                let six = self.by.jacobian(self.arm, self.at);
                 six[3 * part..3 * part + 3].to_vec()
             }
             Some(link) => {
@@ -89,7 +85,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     pub fn rate(&self, qd: &[S]) -> Vec<S> {
         self.picked(|part, link| {
             let rate = match link {
-                None => self.formulation.jacobian_rate(self.arm, self.at, qd),
+                None => self.by.jacobian_rate(self.arm, self.at, qd),
                 Some(link) => acceleration(self.arm, self.at, qd, link),
             };
             rate[part].to_vec()
@@ -101,7 +97,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         self.arm.frames.rows.pick(&parts.concat())
     }
 
-    fn turn(&self) -> Vec<Vec<S>> {
+    fn turn(&self) -> Matrix<S> {
         let (arm, at) = self.arm.to_hand(self.at);
         let poses = poses(&arm, &at);
         let rows: Vec<usize> = self.arm.frames.rows.indices().collect();
@@ -114,13 +110,13 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     }
 
     /// Returns G x of each x, a row each.
-    pub fn turned(&self, rows: &[Vec<S>]) -> Vec<Vec<S>> {
+    pub fn turned(&self, rows: &[Vec<S>]) -> Matrix<S> {
         let turn = self.turn();
         rows.iter().map(|row| products(&turn, row)).collect()
     }
 
     /// Returns G M Gᵀ of a symmetric M.
-    pub fn turned_matrix(&self, matrix: &[Vec<S>]) -> Vec<Vec<S>> {
+    pub fn turned_matrix(&self, matrix: &[Vec<S>]) -> Matrix<S> {
         // M Gᵀ, row by row: its columns are those of G M.
         let half = self.turned(matrix);
         let turn = self.turn();

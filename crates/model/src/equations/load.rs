@@ -17,8 +17,7 @@ use crate::scalar::Scalar;
 /// The numbers of a body: its mass, three of the centre of mass, six of the tensor about it.
 pub const BODY: usize = 10;
 
-/// One number of a load: what the arm has of that regrouped parameter, and what a unit of each of
-/// the parameters that are arguments adds.
+/// A number of a load: what the arm has of that regrouped parameter, and what units of arguments add.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadRow<S> {
     /// The number where all arguments are zero.
@@ -65,10 +64,8 @@ impl<S: Scalar> LoadArguments<S> {
     /// Returns the numbers of the load.
     pub fn load(&self) -> Vec<S> {
         let row = |row: &LoadRow<S>| {
-            let terms = row
-                .of
-                .iter()
-                .map(|(place, factor)| times(factor, &self.parameters[*place]));
+            let of = row.of.iter();
+            let terms = of.map(|(place, factor)| times(factor, &self.parameters[*place]));
             terms.fold(row.constant.clone(), |sum, term| plus(&sum, &term))
         };
         self.rows.iter().map(row).collect()

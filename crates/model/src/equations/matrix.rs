@@ -15,6 +15,9 @@ pub use crate::scalar::structural::{halved, minus, negative, over, plus, times, 
 /// A vector of three components.
 pub type Vector<S> = [S; 3];
 
+/// The rows of a matrix.
+pub type Matrix<S> = Vec<Vec<S>>;
+
 /// As `core::array::from_fn`, whose machinery takes ten times as long to compile.
 pub(crate) fn three<T>(mut component: impl FnMut(usize) -> T) -> [T; 3] {
     [component(0), component(1), component(2)]
@@ -51,6 +54,11 @@ pub(super) fn unit<S: Scalar>(n: usize, k: usize) -> Vec<S> {
     e
 }
 
+/// Returns the first three and the last three components of six.
+pub(super) fn parts<S: Clone>(six: &[S]) -> [Vector<S>; 2] {
+    [0, 3].map(|from| three(|i| six[from + i].clone()))
+}
+
 pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
     total(a.iter().zip(b).map(|(a, b)| times(a, b)))
 }
@@ -68,12 +76,16 @@ pub(crate) fn differences<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| minus(a, b)).collect()
 }
 
-pub(crate) fn matrix<S>(n: usize, m: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+pub(crate) fn matrix<S>(n: usize, m: usize, entry: impl Fn(usize, usize) -> S) -> Matrix<S> {
     let row = |i: usize| (0..m).map(|k| entry(i, k)).collect();
     (0..n).map(row).collect()
 }
 
-pub(super) fn zero_matrix<S: Scalar>(n: usize) -> Vec<Vec<S>> {
+pub(super) fn matrix_sum<S: Scalar>(a: &[Vec<S>], b: &[Vec<S>]) -> Matrix<S> {
+    a.iter().zip(b).map(|(a, b)| sums(a, b)).collect()
+}
+
+pub(super) fn zero_matrix<S: Scalar>(n: usize) -> Matrix<S> {
     alloc::vec![zeros(n); n]
 }
 
@@ -87,7 +99,7 @@ pub(super) fn from_hand<J, T>(
     entries
 }
 
-pub(crate) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Vec<Vec<S>> {
+pub(crate) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Matrix<S> {
     let length = rows.first().map_or(0, Vec::len);
     matrix(length, rows.len(), |k, i| rows[i][k].clone())
 }
@@ -98,14 +110,14 @@ pub fn total<S: Scalar>(terms: impl Iterator<Item = S>) -> S {
 }
 
 /// Returns an n×n matrix from its lower half: each entry (i, k), k ≤ i, is made once.
-pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Matrix<S> {
     of_lower_half(n, &entry)
 }
 
 // Compiled once for each scalar, not for each entry's formula.
-fn of_lower_half<S: Clone>(n: usize, entry: &dyn Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+fn of_lower_half<S: Clone>(n: usize, entry: &dyn Fn(usize, usize) -> S) -> Matrix<S> {
     let row = |i: usize| (0..=i).map(|k| entry(i, k)).collect();
-    let lower: Vec<Vec<S>> = (0..n).map(row).collect();
+    let lower: Matrix<S> = (0..n).map(row).collect();
     matrix(n, n, |i, k| lower[i.max(k)][i.min(k)].clone())
 }
 
@@ -113,7 +125,7 @@ fn of_lower_half<S: Clone>(n: usize, entry: &dyn Fn(usize, usize) -> S) -> Vec<V
 pub(super) fn symmetric_each<S: Clone>(
     n: usize,
     entry: impl Fn(usize, usize, usize) -> S,
-) -> Vec<Vec<Vec<S>>> {
+) -> Vec<Matrix<S>> {
     let slice = |i: usize| symmetric(n, |m, k| entry(i, m, k));
     (0..n).map(slice).collect()
 }

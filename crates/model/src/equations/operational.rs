@@ -32,18 +32,18 @@ use crate::scalar::{Divide, Scalar};
 #[derive(Clone, Debug)]
 pub struct TaskSpace<S> {
     /// J, m×n.
-    jacobian: Vec<Vec<S>>,
+    jacobian: Matrix<S>,
     /// J D⁻¹, m×n; zero of joints that do not move.
-    driven: Vec<Vec<S>>,
+    driven: Matrix<S>,
     /// Λ⁻¹, m×m.
-    pub mobility: Vec<Vec<S>>,
+    pub mobility: Matrix<S>,
 }
 
 impl<S: Divide> TaskSpace<S> {
     /// Makes it from J and D⁻¹.
-    pub fn by_inverse(jacobian: Vec<Vec<S>>, inverse: &[Vec<S>]) -> TaskSpace<S> {
+    pub fn by_inverse(jacobian: Matrix<S>, inverse: &[Vec<S>]) -> TaskSpace<S> {
         // D⁻¹ is symmetric: its rows are its columns.
-        let driven: Vec<Vec<S>> = jacobian.iter().map(|row| products(inverse, row)).collect();
+        let driven: Matrix<S> = jacobian.iter().map(|row| products(inverse, row)).collect();
         let mobility = symmetric(jacobian.len(), |i, k| product(&driven[i], &jacobian[k]));
         TaskSpace {
             jacobian,
@@ -54,11 +54,11 @@ impl<S: Divide> TaskSpace<S> {
 
     /// Makes it from J and the factors of D over the joints that move: Λ⁻¹ = Xᵀ d⁻¹ X with X =
     /// U⁻¹ Jᵀ, which keeps the zeros of J behind the joint that a column is of.
-    pub fn by_factor(jacobian: Vec<Vec<S>>, factor: &Factor<S>, moves: &[bool]) -> TaskSpace<S> {
-        let halves = halves(&jacobian, factor, moves);
-        let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
-        let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
+    pub fn by_factor(jacobian: Matrix<S>, factor: &Factor<S>, moves: &[bool]) -> TaskSpace<S> {
         let joints = free(moves);
+        let halves = factor.eliminated_rows(&jacobian, &joints);
+        let scaled: Matrix<S> = halves.iter().map(|half| factor.scaled(half)).collect();
+        let mobility = symmetric(jacobian.len(), |i, k| product(&scaled[i], &halves[k]));
         let drive = |row: Vec<S>| scatter(&factor.substituted(row), &joints, moves.len());
         TaskSpace {
             driven: scaled.into_iter().map(drive).collect(),
@@ -68,17 +68,17 @@ impl<S: Divide> TaskSpace<S> {
     }
 
     /// Returns Λ⁻¹ + λ² 1
-    pub fn damped(&self, damping: &S) -> Vec<Vec<S>> {
+    pub fn damped(&self, damping: &S) -> Matrix<S> {
         damped(&self.mobility, damping)
     }
 
     /// Returns Λ
-    pub fn inertia(&self, damping: &S) -> Vec<Vec<S>> {
+    pub fn inertia(&self, damping: &S) -> Matrix<S> {
         Factor::new(&self.damped(damping)).inverse()
     }
 
     /// Returns J̄, n×m.
-    pub fn consistent_inverse(&self, damping: &S) -> Vec<Vec<S>> {
+    pub fn consistent_inverse(&self, damping: &S) -> Matrix<S> {
         let factor = Factor::new(&self.damped(damping));
         // A row of J̄ is Λ times a column of J D⁻¹: Λ is symmetric.
         let columns = columns_of(&self.driven);
@@ -86,7 +86,7 @@ impl<S: Divide> TaskSpace<S> {
     }
 
     /// Returns N, n×n, over the joints that move.
-    pub fn null_space(&self, damping: &S, moves: &[bool]) -> Vec<Vec<S>> {
+    pub fn null_space(&self, damping: &S, moves: &[bool]) -> Matrix<S> {
         let inverse = self.consistent_inverse(damping);
         let columns = columns_of(&self.jacobian);
         matrix(moves.len(), moves.len(), |i, k| {
@@ -110,9 +110,9 @@ impl<S: Divide> TaskSpace<S> {
 /// (Jᵀ J + λ² D) J̄ = Jᵀ by D from the left.
 #[derive(Clone, Debug)]
 pub struct NormalEquations<S> {
-    jacobian: Vec<Vec<S>>,
+    jacobian: Matrix<S>,
     /// λ² D over these joints.
-    damping: Vec<Vec<S>>,
+    damping: Matrix<S>,
     factor: Factor<S>,
     joints: Vec<usize>,
     n: usize,
@@ -130,7 +130,7 @@ impl<S: Divide> NormalEquations<S> {
         if jacobian.len() < joints.len() {
             return None;
         }
-        let jacobian: Vec<Vec<S>> = jacobian.iter().map(|row| picked(row, &joints)).collect();
+        let jacobian: Matrix<S> = jacobian.iter().map(|row| picked(row, &joints)).collect();
         let inertia = submatrix(inertia, &joints);
         let damping = symmetric(joints.len(), |i, k| times(damping, &inertia[i][k]));
         let columns = columns_of(&jacobian);
@@ -145,36 +145,29 @@ impl<S: Divide> NormalEquations<S> {
     }
 
     /// Returns J̄, n×m.
-    pub fn consistent_inverse(&self) -> Vec<Vec<S>> {
+    pub fn consistent_inverse(&self) -> Matrix<S> {
         self.solved(&self.jacobian)
     }
 
     /// Returns N, n×n, over the joints that move.
-    pub fn null_space(&self) -> Vec<Vec<S>> {
+    pub fn null_space(&self) -> Matrix<S> {
         let whole = |row: &Vec<S>| scatter(row, &self.joints, self.n);
         self.solved(&self.damping).iter().map(whole).collect()
     }
 
-    fn solved(&self, right: &[Vec<S>]) -> Vec<Vec<S>> {
-        let columns: Vec<Vec<S>> = right.iter().map(|x| self.factor.solve(x)).collect();
+    fn solved(&self, right: &[Vec<S>]) -> Matrix<S> {
+        let columns: Matrix<S> = right.iter().map(|x| self.factor.solve(x)).collect();
         let nothing = alloc::vec![zeros(right.len()); self.n];
         placed(nothing, &self.joints, columns_of(&columns))
     }
 }
 
 /// Returns a symmetric matrix with λ² added to its diagonal.
-pub fn damped<S: Scalar>(matrix: &[Vec<S>], damping: &S) -> Vec<Vec<S>> {
+pub fn damped<S: Scalar>(matrix: &[Vec<S>], damping: &S) -> Matrix<S> {
     symmetric(matrix.len(), |i, k| match i == k {
         true => plus(&matrix[i][i], damping),
         false => matrix[i][k].clone(),
     })
-}
-
-/// Returns U⁻¹ Jᵀ over the joints that move, a row for each of J's.
-fn halves<S: Divide>(jacobian: &[Vec<S>], factor: &Factor<S>, moves: &[bool]) -> Vec<Vec<S>> {
-    let joints = free(moves);
-    let half = |row: &Vec<S>| factor.eliminated(&picked(row, &joints));
-    jacobian.iter().map(half).collect()
 }
 
 /// Returns J D⁻¹ b, from the factors of D over the joints that move.
@@ -184,18 +177,19 @@ pub fn driven_by<S: Divide>(
     b: &[S],
     moves: &[bool],
 ) -> Vec<S> {
-    let scaled = factor.scaled(&factor.eliminated(&picked(b, &free(moves))));
-    products(&halves(jacobian, factor, moves), &scaled)
+    let joints = free(moves);
+    let scaled = factor.scaled(&factor.eliminated(&picked(b, &joints)));
+    products(&factor.eliminated_rows(jacobian, &joints), &scaled)
 }
 
 impl Formulation {
     /// Returns J of the components that the arm is asked for, m×n.
-    pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         arm.frames.rows.pick(&self.jacobian(arm, at))
     }
 
     /// Returns the Jacobian gathered at the leaders of joints that follow.
-    pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Vec<Vec<S>> {
+    pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &At<S>) -> Matrix<S> {
         gathered_rows(&arm.following, self.task_jacobian(arm, at))
     }
 
@@ -219,10 +213,8 @@ impl Formulation {
         let still = zeros(qd.len());
         let free = arm.clone().without_friction();
         let falling = self.forward_dynamics(&free, at, qd, &still, moves);
-        let driven: Vec<S> = products(&space.jacobian, &falling)
-            .iter()
-            .map(negative)
-            .collect();
+        let fallen = products(&space.jacobian, &falling);
+        let driven: Vec<S> = fallen.iter().map(negative).collect();
         let rate = self.jacobian_rate(arm, at, qd).concat();
         space.bias(&driven, &arm.frames.rows.pick(&rate), damping)
     }

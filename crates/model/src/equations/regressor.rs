@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use super::chain::body::{MomentBody, entry};
 pub use super::chain::{Column, Probed};
 use super::factor::scatter;
-use super::matrix::{differences, matrix, minus, opposite, times, transposed, zero_vector};
+use super::matrix::*;
 use super::{Arm, At, Formulation, Link};
 use crate::robot::{Inertia, Robot};
 use crate::scalar::Scalar;
@@ -119,9 +119,8 @@ impl<S: Scalar> Arm<S> {
             let body = self.body(joint);
             LinkParameter::ALL.map(|parameter| parameter.of_body(&body))
         };
-        (self.first_body()..self.links.len())
-            .flat_map(of_link)
-            .collect()
+        let bodies = self.first_body()..self.links.len();
+        bodies.flat_map(of_link).collect()
     }
 }
 
@@ -145,7 +144,7 @@ impl Formulation {
         qd: &[S],
         qdd: &[S],
         columns: &[Column<S>],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         by_differences(arm, columns, [qd, qdd], |arm| {
             self.inverse_dynamics(arm, at, qd, qdd)
         })
@@ -159,9 +158,9 @@ impl Formulation {
         qd: &[S],
         [v, a]: [&[S]; 2],
         columns: &[Column<S>],
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         by_differences(arm, columns, [v, a], |arm| {
-            self.passivity(arm, at, qd, [v, a])
+            self.passivity(arm, at, [qd, v, a])
         })
     }
 }
@@ -174,7 +173,7 @@ fn by_differences<S: Scalar>(
     columns: &[Column<S>],
     [qd, qdd]: [&[S]; 2],
     torques: impl Fn(&Arm<S>) -> Vec<S>,
-) -> Vec<Vec<S>> {
+) -> Matrix<S> {
     let n = arm.links.len();
     let empty = without_bodies(arm);
     let column = |Column { joint, of }: &Column<S>| {
@@ -185,7 +184,7 @@ fn by_differences<S: Scalar>(
             Probed::Viscous => drive(qd),
         }
     };
-    let columns: Vec<Vec<S>> = columns.iter().map(column).collect();
+    let columns: Matrix<S> = columns.iter().map(column).collect();
     matrix(n, columns.len(), |i, k| columns[k][i].clone())
 }
 
@@ -214,13 +213,11 @@ fn of_body<S: Scalar>(
         return with(body.mass.clone(), zero_vector(), body.tensor());
     }
     // About its centre at s a mass of one has Σ − s sᵀ.
-    let about_centre = MomentBody {
-        second: Inertia::symmetric(|i, j| {
-            let term = times(&body.first[i], &body.first[j]);
-            minus(entry(&body.second, i, j), &term)
-        }),
-        ..body.clone()
-    };
+    let mut about_centre = body.clone();
+    about_centre.second = Inertia::symmetric(|i, j| {
+        let term = times(&body.first[i], &body.first[j]);
+        minus(entry(&body.second, i, j), &term)
+    });
     let whole = with(S::one(), body.first.clone(), about_centre.tensor());
     let rest = minus(&S::one(), &body.mass);
     if rest.is_zero() {

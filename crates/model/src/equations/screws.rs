@@ -36,10 +36,9 @@ impl<S: Scalar> Twist<S> {
     }
 
     pub(super) fn with(&self, other: &Self) -> Self {
-        Twist {
-            turn: sum(&self.turn, &other.turn),
-            shift: sum(&self.shift, &other.shift),
-        }
+        let turn = sum(&self.turn, &other.turn);
+        let shift = sum(&self.shift, &other.shift);
+        Twist { turn, shift }
     }
 
     pub(super) fn doubled(&self) -> Self {
@@ -61,10 +60,8 @@ impl<S: Scalar> Wrench<S> {
     }
 
     pub(super) fn couple(moment: Vector<S>) -> Self {
-        Wrench {
-            force: zero_vector(),
-            moment,
-        }
+        let force = zero_vector();
+        Wrench { force, moment }
     }
 
     pub(super) fn part(&self, kind: JointKind) -> &Vector<S> {
@@ -89,10 +86,9 @@ impl<S: Scalar> Wrench<S> {
     }
 
     pub(super) fn with(&self, other: &Self) -> Self {
-        Wrench {
-            force: sum(&self.force, &other.force),
-            moment: sum(&self.moment, &other.moment),
-        }
+        let force = sum(&self.force, &other.force);
+        let moment = sum(&self.moment, &other.moment);
+        Wrench { force, moment }
     }
 
     pub(super) fn scaled(&self, factor: &S) -> Self {

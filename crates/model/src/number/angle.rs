@@ -15,8 +15,7 @@ use crate::scalar::SinCosPair;
 
 /// An angle as the robot file gives it.
 ///
-/// Its order is that of the representation, for use as a map key; to
-/// compare sizes use [`Angle::cmp_value`].
+/// Its order is that of the form, for use as a map key; [`Angle::cmp_value`] compares sizes.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Angle {
     /// A rational multiple of π: `"pi/2"` is ½, `"90deg"` is ½ as well.
@@ -66,12 +65,7 @@ impl Angle {
 
     /// True for π/4, whose sine and cosine are both √½.
     pub fn is_eighth(&self) -> bool {
-        match self {
-            Angle::PiTimes(multiple) => {
-                multiple.numer().is_one() && multiple.denom().to_u8() == Some(4)
-            }
-            Angle::Radians(_) | Angle::TwiceAtan(_) => false,
-        }
+        matches!(self, Angle::PiTimes(x) if x.numer().is_one() && x.denom().to_u8() == Some(4))
     }
 
     /// True for zero, in any form.
@@ -125,10 +119,7 @@ impl Angle {
     pub fn quarter_turns(&self) -> Option<u8> {
         match self {
             Angle::PiTimes(value) => {
-                let quarters = value * Rational::from_integer(2.into());
-                if !quarters.is_integer() {
-                    return None;
-                }
+                let quarters = Some(value * ratio(2, 1)).filter(Rational::is_integer)?;
                 quarters.to_integer().mod_floor(&4.into()).to_u8()
             }
             Angle::Radians(value) | Angle::TwiceAtan(value) => value.is_zero().then_some(0),
@@ -159,8 +150,7 @@ impl Angle {
         }
     }
 
-    /// Reads the text forms: `"[-][k*]pi[/m]"`, `"90deg"`, `"[-]2*atan(p/q)"`, and a fraction of
-    /// radians, `"1/3"`.
+    /// Reads a text: `"[-][k*]pi[/m]"`, `"90deg"`, `"[-]2*atan(p/q)"`, or radians, `"1/3"`.
     ///
     /// # Errors
     /// [`NumberError`] if it is none of them.
@@ -171,18 +161,14 @@ impl Angle {
         }
         if let Some(degrees) = text.strip_suffix("deg") {
             let degrees = parse::parse_decimal(degrees.trim_end())?;
-            return Ok(Angle::PiTimes(degrees / Rational::from_integer(180.into())));
+            return Ok(Angle::PiTimes(degrees * ratio(1, 180)));
         }
         if let Some((before, tangent)) = text.split_once("atan(") {
             let (negative, before) = parse::split_sign(before);
-            let tangent = tangent
-                .strip_suffix(')')
-                .filter(|_| before.trim() == "2*")
-                .ok_or(NumberError::Malformed)?
-                .trim();
-            let tangent = match tangent.contains('/') {
-                true => parse::parse_fraction(tangent)?,
-                false => parse::parse_decimal(tangent)?,
+            let inner = tangent.strip_suffix(')').filter(|_| before.trim() == "2*");
+            let tangent = match inner.ok_or(NumberError::Malformed)?.trim() {
+                fraction if fraction.contains('/') => parse::parse_fraction(fraction)?,
+                decimal => parse::parse_decimal(decimal)?,
             };
             let angle = Angle::TwiceAtan(if negative { -tangent } else { tangent });
             return Ok(angle.canonical());
@@ -282,8 +268,7 @@ impl SnappedAngle {
         if radians.is_zero() {
             return SnappedAngle::Kept(Angle::default());
         }
-        // Nonzero multiples up to ±2π, against their doubles. The
-        // difference of two doubles this close is exact.
+        // Multiples up to ±2π, against their doubles: differences of doubles this close are exact.
         for n in [1i8, 2, 3, 4] {
             let multiple = f64::from(n) * core::f64::consts::FRAC_PI_2;
             let ulp = f64::from_bits(multiple.to_bits() + 1) - multiple;
@@ -329,33 +314,21 @@ mod tests {
     use super::*;
     use crate::scalar::Scalar;
 
-    /// Checks that both texts are this angle, and that it is written as the first.
-    fn reads(texts: [&str; 2], angle: Angle) {
-        for text in texts {
-            assert_eq!(Angle::parse(text), Ok(angle.clone()), "{text}");
-        }
-        assert_eq!(angle.to_string(), texts[0]);
-    }
-
     #[test]
     fn angles_of_rational_points_read_back() {
-        reads(
-            ["2*atan(-1/3)", "-2*atan(1/3)"],
-            Angle::TwiceAtan(ratio(-1, 3)),
-        );
-        reads(
-            ["2*atan(7)", " 2*atan( 14/2 )"],
-            Angle::TwiceAtan(ratio(7, 1)),
-        );
-        reads(["-pi/2", "2*atan(-1)"], Angle::right_angles(-1));
-        assert_eq!(Angle::parse("2*atan(0)"), Ok(Angle::default()));
-        for text in [
-            "atan(1/3)",
-            "3*atan(1/3)",
-            "2*atan(1/3",
-            "2*atan(pi)",
-            "2*atan()",
+        for (text, other, numerator, denominator) in [
+            ("2*atan(-1/3)", "-2*atan(1/3)", -1, 3),
+            ("2*atan(7)", " 2*atan( 14/2 )", 7, 1),
+            ("-pi/2", "2*atan(-1)", -1, 1),
         ] {
+            let angle = Angle::TwiceAtan(ratio(numerator, denominator)).canonical();
+            for text in [text, other] {
+                assert_eq!(Angle::parse(text), Ok(angle.clone()), "{text}");
+            }
+            assert_eq!(angle.to_string(), text);
+        }
+        assert_eq!(Angle::parse("2*atan(0)"), Ok(Angle::default()));
+        for text in "atan(1/3) 3*atan(1/3) 2*atan(1/3 2*atan(pi) 2*atan()".split(' ') {
             assert!(Angle::parse(text).is_err(), "{text}");
         }
     }
@@ -384,10 +357,8 @@ mod tests {
         for thousandths in [-3141, -2200, -1571, -300, 0, 1, 812, 1570, 1572, 2500, 3140] {
             let angle = Angle::Radians(ratio(thousandths, 1000)).canonical();
             let point = angle.on_the_circle();
-            assert!(
-                (angle.radians() - point.radians()).abs() <= least,
-                "{angle}"
-            );
+            let off = (angle.radians() - point.radians()).abs();
+            assert!(off <= least, "{angle}");
             let bits = point.number().denom().bits() + point.number().numer().bits();
             assert!(bits <= 60, "{point}");
             assert_eq!(point.on_the_circle(), point);

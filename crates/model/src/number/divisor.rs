@@ -10,15 +10,8 @@ use num_traits::Zero;
 const LEADING: u64 = 62;
 
 pub(super) fn greatest_common_divisor(a: &BigUint, b: &BigUint) -> BigUint {
-    let (mut x, mut y) = if a >= b {
-        (a.clone(), b.clone())
-    } else {
-        (b.clone(), a.clone())
-    };
-    loop {
-        if y.is_zero() {
-            return x;
-        }
+    let (mut x, mut y) = (a.max(b).clone(), a.min(b).clone());
+    while !y.is_zero() {
         if let (Ok(x), Ok(y)) = (u64::try_from(&x), u64::try_from(&y)) {
             return x.gcd(&y).into();
         }
@@ -36,6 +29,7 @@ pub(super) fn greatest_common_divisor(a: &BigUint, b: &BigUint) -> BigUint {
             }
         };
     }
+    x
 }
 
 /// Returns the rows by which Euclid's steps change any two numbers that begin with `x` and `y`, as
@@ -57,12 +51,8 @@ fn cofactors(mut x: i64, mut y: i64) -> Option<[[i64; 2]; 2]> {
 
 /// Returns p x + q y, which is not negative; one of p and q is not positive.
 fn combined(p: i64, x: &BigUint, q: i64, y: &BigUint) -> BigUint {
-    let [first, second] = [x * p.unsigned_abs(), y * q.unsigned_abs()];
-    if p > 0 {
-        first - second
-    } else {
-        second - first
-    }
+    let [px, qy] = [x * p.unsigned_abs(), y * q.unsigned_abs()];
+    if p > 0 { px - qy } else { qy - px }
 }
 
 #[cfg(test)]
@@ -96,11 +86,8 @@ mod tests {
         let [a, b] = [&fibonacci[999], &fibonacci[998]];
         assert_eq!(greatest_common_divisor(a, b), BigUint::from(1_u8));
         let power: BigUint = BigUint::from(1_u8) << 500;
-        for (a, b) in [
-            (&power + 1_u8, power.clone()),
-            (&power * 3_u8, power.clone()),
-        ] {
-            assert_eq!(greatest_common_divisor(&a, &b), a.gcd(&b));
+        for a in [&power + 1_u8, &power * 3_u8] {
+            assert_eq!(greatest_common_divisor(&a, &power), a.gcd(&power));
         }
     }
 }

@@ -35,7 +35,6 @@ pub(super) enum Canonical {
     Polynomial(Arc<Terms>),
 }
 
-/// The coefficient of each monomial.
 pub(super) type Terms = BTreeMap<Monomial, Rational>;
 
 impl Ord for Canonical {
@@ -63,8 +62,7 @@ impl PartialOrd for Canonical {
     }
 }
 
-/// The comparison and the hash of a rational go through the steps of a division, since they do not
-/// count on reduced parts.
+/// Parts that are reduced: a rational's comparison and hash, which divide, do not count on that.
 fn parts(value: &Rational) -> (&BigInt, &BigInt) {
     (value.numer(), value.denom())
 }
@@ -113,13 +111,11 @@ pub(super) struct Power {
 
 impl Ord for Power {
     fn cmp(&self, other: &Self) -> Ordering {
-        let angles = match Arc::ptr_eq(&self.angle, &other.angle) {
-            true => Ordering::Equal,
-            false => self.angle.cmp(&other.angle),
-        };
-        angles
-            .then(self.sin.cmp(&other.sin))
-            .then(self.cos.cmp(&other.cos))
+        let powers = (self.sin, self.cos).cmp(&(other.sin, other.cos));
+        match Arc::ptr_eq(&self.angle, &other.angle) {
+            true => powers,
+            false => self.angle.cmp(&other.angle).then(powers),
+        }
     }
 }
 
@@ -160,13 +156,13 @@ impl Exact {
         }
     }
 
-    /// True if the leading coefficient is negative: the sign that canonical forms pull out
-    /// (for a polynomial not necessarily that of the value).
+    /// True if the leading coefficient is negative, not necessarily the value: canonical forms pull
+    /// that sign out.
     pub fn leads_negative(&self) -> bool {
         match &self.0 {
             Canonical::Rational(value) => value.is_negative(),
             Canonical::Polynomial(terms) => {
-                terms.values().next_back().is_some_and(|c| c.is_negative())
+                terms.values().next_back().is_some_and(Signed::is_negative)
             }
         }
     }
@@ -184,8 +180,7 @@ impl Exact {
         }
     }
 
-    /// Returns the value in another ring, from the images of rationals and of the
-    /// pairs of constant angles; `None` if `rational` gives one.
+    /// Returns the value in another ring, from the images of rationals, if any, and constant angles.
     pub fn map<S: Scalar>(
         &self,
         rational: &mut impl FnMut(&Rational) -> Option<S>,
@@ -331,9 +326,7 @@ fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
     let mut pending = Vec::from([(product, factor)]);
     while let Some((mut monomial, coefficient)) = pending.pop() {
         match monomial.iter().position(|power| power.sin == 2) {
-            None => {
-                *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient;
-            }
+            None => *terms.entry(monomial).or_insert_with(Rational::zero) += coefficient,
             Some(at) => {
                 monomial[at].sin = 0;
                 let mut squared = monomial.clone();
@@ -349,8 +342,7 @@ fn multiply_into(terms: &mut Terms, m: &Monomial, n: &Monomial, c: &Rational) {
 }
 
 /// Splits angle = turns·π/2 + remainder, 0 to 3 turns. Multiples of π are reduced to (0, π/4], so
-/// that π/3 and π/6 share their generators; radians only lose their sign, since they are no
-/// multiple.
+/// that π/3 and π/6 share their generators; radians, which are no multiple, only lose their sign.
 fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
     let generators = |angle: Angle| {
         let angle = Arc::new(angle);
@@ -372,8 +364,7 @@ fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
             }
             let half = ratio(1, 2);
             if rest > half {
-                let rest = Rational::one() - rest;
-                let [sin, cos] = generators(Angle::PiTimes(rest * half));
+                let [sin, cos] = generators(Angle::PiTimes((Rational::one() - rest) * half));
                 return (turns, [cos, sin]);
             }
             (turns, generators(Angle::PiTimes(rest * half)))

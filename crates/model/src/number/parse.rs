@@ -1,8 +1,7 @@
 //! Decimal literals, read exactly.
 //!
-//! `0.4318` is 4318/10000. A parser that goes through f64 would read
-//! 0.43180000000000001714…, and every constant of the generated code would
-//! carry a 53-bit numerator about.
+//! `0.4318` is 4318/10000. A parser that goes through f64 would read 0.43180000000000001714…, and
+//! every constant of the generated code would carry a 53-bit numerator about.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -13,13 +12,11 @@ use num_traits::{One, Signed, Zero};
 
 use super::Rational;
 
-/// The longest literal, in bytes. It has room for every double in range,
-/// written out to its last digit.
+/// The longest literal, in bytes: room for every double in range, written out to its last digit.
 pub const MAX_LITERAL: usize = 1200;
 /// The most digits of a literal, leading zeros aside; a double has up to 767.
 pub const MAX_DIGITS: usize = 800;
-/// Every number is zero or between 10^−`MAX_EXPONENT` and 10^`MAX_EXPONENT`
-/// in size, so that it and its reciprocal are ordinary doubles.
+/// A number that is not zero, and its reciprocal, are at most 10^`MAX_EXPONENT`: ordinary doubles.
 pub const MAX_EXPONENT: i64 = 300;
 
 /// The reasons for which a text is not a number.
@@ -58,24 +55,21 @@ impl NumberError {
 
 impl fmt::Display for NumberError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NumberError::Malformed => f.write_str("not a decimal number"),
-            NumberError::NotFinite => f.write_str("not a finite number"),
-            NumberError::Radix => f.write_str("not a decimal number but one in another base"),
-            NumberError::TooLong => write!(f, "a number of more than {MAX_DIGITS} digits"),
-            NumberError::OutOfRange => f.write_str("a number too large or too small"),
-            NumberError::NotExact => {
-                f.write_str("expected a constant such as `3/4` or `1/2*cos(1*pi/5)^2`")
-            }
-            NumberError::ZeroDenominator => f.write_str("a fraction with denominator zero"),
-        }
+        f.write_str(match self {
+            NumberError::Malformed => "not a decimal number",
+            NumberError::NotFinite => "not a finite number",
+            NumberError::Radix => "not a decimal number but one in another base",
+            NumberError::TooLong => return write!(f, "a number of more than {MAX_DIGITS} digits"),
+            NumberError::OutOfRange => "a number too large or too small",
+            NumberError::NotExact => "expected a constant such as `3/4` or `1/2*cos(1*pi/5)^2`",
+            NumberError::ZeroDenominator => "a fraction with denominator zero",
+        })
     }
 }
 
 impl core::error::Error for NumberError {}
 
-/// Reads a decimal literal as TOML writes it: sign, digits with underscores
-/// between them, point, exponent.
+/// Reads a decimal literal as TOML writes it: sign, digits with `_` between them, point, exponent.
 ///
 /// # Errors
 /// [`NumberError`]; work and memory are bounded whatever the text.
@@ -84,25 +78,19 @@ pub fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
         return Err(NumberError::TooLong);
     }
     let (negative, rest) = split_sign(text);
-    match rest {
-        "inf" | "nan" | "infinity" | "Infinity" | "NaN" | "Inf" => {
-            return Err(NumberError::NotFinite);
-        }
-        _ if ["0x", "0o", "0b"].iter().any(|p| rest.starts_with(p)) => {
-            return Err(NumberError::Radix);
-        }
-        _ => {}
+    if ["inf", "nan", "infinity", "Infinity", "NaN", "Inf"].contains(&rest) {
+        return Err(NumberError::NotFinite);
     }
-    let (mantissa, exponent) = match rest.split_once(['e', 'E']) {
-        Some((mantissa, exponent)) => (mantissa, Some(exponent)),
-        None => (rest, None),
-    };
+    if ["0x", "0o", "0b"].iter().any(|p| rest.starts_with(p)) {
+        return Err(NumberError::Radix);
+    }
+    let (mantissa, exponent) = rest.split_once(['e', 'E']).unwrap_or((rest, "0"));
     let (whole, fraction) = match mantissa.split_once('.') {
         Some((whole, fraction)) => (whole, Some(fraction)),
         None => (mantissa, None),
     };
     let fraction = fraction.map_or(Ok(String::new()), digits)?;
-    let scale = exponent.map_or(Ok(0), parse_exponent)? - fraction.len() as i64;
+    let scale = parse_exponent(exponent)? - fraction.len() as i64;
     let size = integer(digits(whole)? + &fraction)?;
     scaled(if negative { -size } else { size }, scale)
 }
@@ -131,8 +119,7 @@ pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
 
 /// True if a number is zero or of a size from 1e-300 to 1e300.
 pub fn in_range(value: &Rational) -> bool {
-    // Bits first: the exact comparison would build the huge power anyway, but
-    // should not multiply it with a numerator a thousand times as long.
+    // Bits first: the exact comparison should not multiply with a numerator of any length.
     let bits = |n: &BigInt| n.bits() as i64;
     let size = bits(value.numer()) - bits(value.denom());
     if value.is_zero() || size.abs() < 990 {
@@ -162,7 +149,7 @@ fn scaled(size: BigInt, scale: i64) -> Result<Rational, NumberError> {
     checked(Rational::from_integer(10.into()).pow(scale as i32) * size)
 }
 
-pub(super) fn split_sign(text: &str) -> (bool, &str) {
+pub(crate) fn split_sign(text: &str) -> (bool, &str) {
     match text.strip_prefix('-') {
         Some(rest) => (true, rest),
         None => (false, text.strip_prefix('+').unwrap_or(text)),
@@ -219,7 +206,7 @@ pub fn write_decimal(value: &Rational) -> Option<String> {
     let kept = digits.trim_end_matches('0');
     let sign = if value.is_negative() { "-" } else { "" };
     let lead = digits.len() as i64 - 1 - i64::from(places);
-    let text = if !(-5..=15).contains(&lead) {
+    Some(if !(-5..=15).contains(&lead) {
         let (first, rest) = kept.split_at(1);
         let point = if rest.is_empty() { "" } else { "." };
         format!("{sign}{first}{point}{rest}e{lead}")
@@ -230,6 +217,5 @@ pub fn write_decimal(value: &Rational) -> Option<String> {
     } else {
         let (whole, rest) = digits.split_at(lead as usize + 1);
         format!("{sign}{whole}.{rest}")
-    };
-    Some(text)
+    })
 }

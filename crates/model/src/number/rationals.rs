@@ -18,8 +18,7 @@ pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
     if p == 0 || r == 0 {
         return Rational::zero();
     }
-    // What they have in common goes first: p/q and r/s are in lowest terms, so
-    // the product is. Each factor is below 2⁶³.
+    // Common factors go first, so that the product is in lowest terms. Each factor is below 2⁶³.
     let (first, second) = (common(p, s), common(r, q));
     let [numerator, denominator] = [(p / first) * (r / second), (q / second) * (s / first)];
     Rational::new_raw(numerator.into(), denominator.into())
@@ -97,7 +96,7 @@ fn common(a: i128, b: i128) -> i128 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::round::round_magnitude;
+    use super::super::{ratio, round::round_magnitude};
     use super::*;
     use crate::scalar::field::Points;
     use alloc::vec::Vec;
@@ -115,11 +114,9 @@ mod tests {
             let denominator = if denominator == 0 { 1 } else { denominator };
             Rational::new(numerator.into(), denominator.into())
         };
-        let edges =
-            [i64::MAX, i64::MIN, i64::MIN + 1, 0, 1, -1].map(|x| Rational::from_integer(x.into()));
-        let mut pairs: Vec<(Rational, Rational)> = (0..20_000)
-            .map(|k| (rational(1 + k % 63), rational(1 + (k / 7) % 63)))
-            .collect();
+        let edges = [i64::MAX, i64::MIN, i64::MIN + 1, 0, 1, -1].map(|edge| ratio(edge, 1));
+        let pair = |k: u32| (rational(1 + k % 63), rational(1 + (k / 7) % 63));
+        let mut pairs: Vec<(Rational, Rational)> = (0..20_000).map(pair).collect();
         for a in &edges {
             for b in &edges {
                 pairs.push((a.clone(), b.clone()));

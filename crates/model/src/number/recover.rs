@@ -1,11 +1,9 @@
 //! The numbers that were meant, from what a computation in wide floats made of them.
 //!
-//! Geometry needs roots and arcs, which exact constants have not. But where the
-//! result of a computation with 256 bits is within 2⁻²⁰⁰ of a simple fraction,
-//! or of a simple multiple of π, it *is* that number, or so close that no
-//! digit which anybody gave can tell: an arm whose angles are multiples of π/2
-//! and whose lengths are decimals comes out in the same decimals. Everything
-//! else is rounded once, to 20 digits.
+//! Geometry needs roots and arcs, which exact constants have not. But where the result of a
+//! computation with 256 bits is within 2⁻²⁰⁰ of a simple fraction, or of a simple multiple of π, it
+//! *is* that number, or so close that no given digit can tell: an arm whose angles are multiples of
+//! π/2 and whose lengths are decimals keeps its decimals. All else is rounded once, to 20 digits.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -19,33 +17,26 @@ const SIMPLE: u64 = 90;
 /// The digits that everything else is rounded to.
 const DIGITS: i64 = 20;
 
-/// Returns 2⁻²⁰⁰: a result closer to a number than this, in units of the size of its
-/// inputs, is that number.
+/// Returns 2⁻²⁰⁰: a result closer to a number than this, times its inputs' size, is that number.
 pub fn near() -> Rational {
     Rational::new(BigInt::one(), BigInt::one() << 200u32)
 }
 
-/// Returns the fraction that a number computed from others of this size was meant to
-/// be, or the number rounded to 20 digits.
+/// Returns the fraction that a number from others of this size was meant to be, else 20 digits.
 pub fn recovered(value: &Wide, size: &Rational) -> Rational {
     let value = value.to_rational();
     simple(&value, &(size * near())).unwrap_or_else(|| rounded(&value))
 }
 
-/// Returns the fraction of the least numerator and denominator that is within 2 to the power of
-/// minus so many bits: mostly of half as many bits.
+/// Returns the simplest fraction within 2 to the power of minus so many bits: mostly of half of them.
 pub fn short(value: &Rational, bits: u32) -> Rational {
     let near = Rational::new(BigInt::one(), BigInt::one() << bits);
     let size = value.abs();
     if size <= near {
         return Rational::zero();
     }
-    let magnitude = simplest(&size - &near, size + near);
-    if value.is_negative() {
-        -magnitude
-    } else {
-        magnitude
-    }
+    let least = simplest(&size - &near, size + near);
+    if value.is_negative() { -least } else { least }
 }
 
 /// Returns the simplest fraction between two that are positive: the convergents of all numbers
@@ -66,16 +57,14 @@ impl Angle {
     pub fn recovered(sin: &Wide, cos: &Wide) -> Angle {
         let radians = arc(sin, cos);
         let pi = Angle::PiTimes(Rational::one()).radians();
-        match simple(&(&radians / &pi), &near()) {
-            Some(multiple) => Angle::PiTimes(multiple),
-            None => {
-                let meant = simple(&radians, &near()).unwrap_or_else(|| rounded(&radians));
-                match SnappedAngle::of_radians(meant.clone()) {
-                    // Radians so near a right angle are read as that; multiples of π as written.
-                    SnappedAngle::Taken(_) => Angle::PiTimes(rounded(&(radians / pi))),
-                    _ => Angle::Radians(meant).canonical(),
-                }
-            }
+        if let Some(multiple) = simple(&(&radians / &pi), &near()) {
+            return Angle::PiTimes(multiple);
+        }
+        let meant = simple(&radians, &near()).unwrap_or_else(|| rounded(&radians));
+        match SnappedAngle::of_radians(meant.clone()) {
+            // Radians so near a right angle are read as that; multiples of π as written.
+            SnappedAngle::Taken(_) => Angle::PiTimes(rounded(&(radians / pi))),
+            _ => Angle::Radians(meant).canonical(),
         }
     }
 }

@@ -81,31 +81,17 @@ pub(super) fn round_magnitude(value: &Rational, digits: i64, least: i64, most: i
         return f64::INFINITY;
     }
     // Both factors are exact, and the product is representable.
-    scale(significand.to_f64().unwrap_or(f64::INFINITY), unit)
+    libm::ldexp(significand.to_f64().unwrap_or(f64::INFINITY), unit as i32)
 }
 
 /// Returns ⌊n/(d·2^unit)⌋ and how twice the remainder compares to the divisor.
 fn divide(n: &BigInt, d: &BigInt, unit: i64) -> (BigInt, core::cmp::Ordering) {
-    let (n, d) = if unit < 0 {
-        (n << unit.unsigned_abs(), d.clone())
-    } else {
-        (n.clone(), d << unit.unsigned_abs())
+    let (n, d) = match unit < 0 {
+        true => (n << unit.unsigned_abs(), d.clone()),
+        false => (n.clone(), d << unit.unsigned_abs()),
     };
     let (quotient, rest) = n.div_rem(&d);
     (quotient, (rest << 1u32).cmp(&d))
-}
-
-fn scale(mut x: f64, mut e: i64) -> f64 {
-    let power = |e: i64| f64::from_bits(((e + 1023) as u64) << 52);
-    while e < -1000 {
-        x *= power(-1000);
-        e += 1000;
-    }
-    while e > 1000 {
-        x *= power(1000);
-        e -= 1000;
-    }
-    x * power(e)
 }
 
 /// Rounds a polynomial by Ziv's strategy: more bits until both ends of the enclosure round alike.
@@ -121,9 +107,8 @@ fn round_polynomial<T: Rounded>(terms: &Terms) -> T {
             return low;
         }
         if bits > 6000 {
-            // Only a relation that the representation does not know, such as
-            // sin π/6 = ½, brings a constant this close to a boundary:
-            // the value is zero, or the boundary itself.
+            // Only a relation that the representation does not know, such as sin π/6 = ½, brings a
+            // constant this close to a boundary: the value is zero, or the boundary itself.
             let is_zero = value.abs() <= error;
             return near(if is_zero { BigInt::zero() } else { value });
         }
@@ -177,10 +162,8 @@ mod tests {
             f64::nearest_rational(&(Rational::from_float(x).unwrap() * factor))
         };
         let normal = [f64::MAX, f64::MIN_POSITIVE, 1e300];
-        for x in normal
-            .into_iter()
-            .chain([5e-324, 2.225073858507201e-308, -1e-310])
-        {
+        let subnormal = [5e-324, 2.225073858507201e-308, -1e-310];
+        for x in normal.into_iter().chain(subnormal) {
             assert_eq!(times(x, ratio(1, 1)), x);
         }
         assert_eq!(times(f64::MAX, ratio(3, 2)), f64::INFINITY);

@@ -1,7 +1,6 @@
 //! π, and sine and cosine of exact angles, to any number of bits, in integers.
 //!
-//! Fixed point: a number x is ⌊x·2^w⌋ with an error of a few units. No
-//! platform libm takes part, so constants are the same on every machine.
+//! Fixed point: a number x is ⌊x·2^w⌋ to a few units, without libm the same on every machine.
 
 use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
@@ -48,8 +47,7 @@ fn machin(w: usize) -> BigInt {
 /// The errors of [`sin_cos`] are below 2^(`SLACK` − w).
 pub(super) const SLACK: usize = 8;
 
-/// Returns (sin, cos) of an angle as integers scaled by 2^w, each within
-/// 2^`SLACK` units of the true value.
+/// Returns (sin, cos) of an angle as integers scaled by 2^w, within 2^`SLACK` of the true values.
 pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
     if let Angle::TwiceAtan(tangent) = angle {
         let scaled = |part: Rational| (part.numer() << w).div_floor(part.denom());
@@ -101,10 +99,9 @@ pub(super) fn twice_atan(tangent: &Rational, w: usize) -> BigInt {
     const HALVINGS: u32 = 4;
     let work = w + 32;
     let is_steep = tangent.abs() > Rational::one();
-    let flat = if is_steep {
-        tangent.recip()
-    } else {
-        tangent.clone()
+    let flat = match is_steep {
+        true => tangent.recip(),
+        false => tangent.clone(),
     };
     let one = BigInt::one() << work;
     let mut x = (flat.numer() << work).div_floor(flat.denom());

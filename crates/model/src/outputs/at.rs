@@ -141,9 +141,8 @@ impl Function {
             let name = format!("{function}_{frame}{}", suffix('_'));
             check_name(&name).map_err(|_| {
                 let frame: String = frame.chars().take(64).collect();
-                let suggested = suggested_name(&frame)
-                    .filter(|name| *name != frame)
-                    .unwrap_or_else(|| String::from("camera_2"));
+                let other = suggested_name(&frame).filter(|name| *name != frame);
+                let suggested = other.as_deref().unwrap_or("camera_2");
                 let help = format!(
                     "small letters, digits and single `_` between them, such as `{suggested}`"
                 );
@@ -161,16 +160,10 @@ impl Function {
         let name = format!("{function}_{}{}", frame.replace(',', "_"), suffix('_'));
         let text = format!("{function}{AT}{frame}{}", suffix(OF));
         Ok(Function::At(NamedFunction::once(text, || {
-            let view = View {
-                frame: kept(frame.to_string()),
-                axes,
-                rows,
-            };
-            let results: Vec<Quantity> = function
-                .quantities()
-                .iter()
-                .map(|quantity| seen(*quantity, view))
-                .collect();
+            let frame = kept(frame.to_string());
+            let view = View { frame, axes, rows };
+            let quantities = function.quantities().iter();
+            let results: Vec<Quantity> = quantities.map(|quantity| seen(*quantity, view)).collect();
             let of = function.definition();
             let structure = of.structure.map(|_| kept(camel(&name)));
             Definition {
@@ -192,9 +185,8 @@ impl Function {
         let frame = words.next().unwrap_or_default();
         let (mut axes, mut rows) = (None, None);
         for word in words {
-            let named = Axes::WORDS
-                .into_iter()
-                .find(|(candidate, _)| *candidate == word);
+            let mut choices = Axes::WORDS.into_iter();
+            let named = choices.find(|(candidate, _)| *candidate == word);
             let is_taken = match (named, Rows::of(word)) {
                 (Some((_, choice)), _) => axes.replace(choice).is_some(),
                 (None, Some(choice)) => rows.replace(choice).is_some(),
@@ -208,12 +200,10 @@ impl Function {
                 return Err(Diagnostic::error(message).with_help(help));
             }
         }
-        let (axes, rows) = (axes.unwrap_or_default(), rows.unwrap_or_default());
-        function.at(frame, axes, rows)
+        function.at(frame, axes.unwrap_or_default(), rows.unwrap_or(Rows::ALL))
     }
 
-    /// Returns the outputs of a list that was parted at its commas, which part the frames of points in
-    /// contact, too.
+    /// Returns the outputs of a list parted at its commas, which part frames in contact, too.
     ///
     /// ```
     /// use dalembert_model::outputs::Function;
@@ -298,11 +288,8 @@ fn described(view: View) -> String {
         }
     };
     let frames = view.frames().map(|frame| format!("`{frame}`"));
-    let word = if view.frames().count() > 1 {
-        "frames"
-    } else {
-        "frame"
-    };
+    let several = view.frames().count() > 1;
+    let word = if several { "frames" } else { "frame" };
     let frames = frames.collect::<Vec<String>>().join(", ");
     format!("At {word} {frames}{axes}{rows}.")
 }
@@ -317,12 +304,9 @@ fn seen(quantity: Quantity, view: View) -> Quantity {
         other => *other,
     };
     let axes: Vec<Axis> = of.shape.0.iter().map(components).collect();
+    let frames = view.frame.replace(',', "_");
     let facts = Facts {
-        field: kept(format!(
-            "{}_{}{name}",
-            of.field,
-            view.frame.replace(',', "_")
-        )),
+        field: kept(format!("{}_{frames}{name}", of.field)),
         symbol: kept(format!("{} at {at}", of.symbol())),
         summary: kept(format!("{} {}", of.summary, described(view))),
         shape: Shape(Box::leak(axes.into_boxed_slice())),

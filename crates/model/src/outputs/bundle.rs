@@ -67,9 +67,8 @@ impl Function {
         }
         let mut results: Vec<(Quantity, Function)> = Vec::new();
         let quantities_of = |&part: &Function| {
-            part.quantities()
-                .iter()
-                .map(move |&quantity| (quantity, part))
+            let quantities = part.quantities().iter();
+            quantities.map(move |&quantity| (quantity, part))
         };
         for (quantity, part) in parts.iter().flat_map(quantities_of) {
             let field = quantity.field();
@@ -229,10 +228,8 @@ pub(super) fn camel(name: &str) -> String {
 
 fn summary(parts: &[Function]) -> String {
     let names: Vec<String> = parts.iter().map(|part| format!("`{part}`")).collect();
-    let over = match parts
-        .iter()
-        .find(|part| part.columns() != RegressorColumns::None)
-    {
+    let is_regressor = |part: &&Function| part.columns() != RegressorColumns::None;
+    let over = match parts.iter().find(is_regressor) {
         Some(part) => format!(" Columns are those of `{part}`."),
         None => String::new(),
     };
@@ -251,8 +248,8 @@ pub(super) fn kept(text: String) -> &'static str {
 /// Returns the error of a word that names no output.
 pub(super) fn unknown_output(word: &str) -> Diagnostic {
     if word.is_empty() {
-        return Diagnostic::error("expected an output")
-            .with_help("write its name, such as `gravity`");
+        let help = "write its name, such as `gravity`";
+        return Diagnostic::error("expected an output").with_help(help);
     }
     let help = match likely(word) {
         Some(meant) => format!("did you mean `{meant}`?"),
@@ -263,7 +260,7 @@ pub(super) fn unknown_output(word: &str) -> Diagnostic {
 
 #[cfg(feature = "std")]
 fn likely(word: &str) -> Option<&'static str> {
-    crate::read::closest(word, &Function::ALL.map(Function::name))
+    crate::diagnostic::closest(word, &Function::ALL.map(Function::name))
 }
 
 #[cfg(not(feature = "std"))]
@@ -272,12 +269,8 @@ fn likely(_: &str) -> Option<&'static str> {
 }
 
 fn nested(bundle: Function) -> Diagnostic {
-    let parts = bundle
-        .parts()
-        .iter()
-        .map(|part| part.name())
-        .collect::<Vec<&str>>()
-        .join(" + ");
+    let names: Vec<&str> = bundle.parts().iter().map(|part| part.name()).collect();
+    let parts = names.join(" + ");
     Diagnostic::error(format!("`{bundle}` is a bundle itself"))
         .with_help(format!("bundles do not nest: write its parts, {parts}"))
 }

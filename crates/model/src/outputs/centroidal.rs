@@ -1,4 +1,4 @@
-//! Momentum about the centre of mass, and robots that nothing holds.
+//! Momentum about the centre of mass, robots that nothing holds, and blocks of D on a base that floats.
 
 use alloc::vec::Vec;
 
@@ -12,7 +12,6 @@ use crate::equations::matrix::{products, sums};
 use crate::scalar::Divide;
 
 pub(super) struct CentreOfMass;
-
 impl Formula for CentreOfMass {
     const FACTS: Facts = Facts {
         field: "com",
@@ -66,7 +65,6 @@ impl Formula for CentroidalMomentumMatrix {
 }
 
 pub(super) struct CentroidalBias;
-
 impl Formula for CentroidalBias {
     const FACTS: Facts = Facts {
         field: "centroidal_bias",
@@ -94,7 +92,6 @@ impl Formula for CentroidalBias {
 }
 
 pub(super) struct FreeTorque;
-
 impl Formula for FreeTorque {
     const FACTS: Facts = Facts {
         field: "tau",
@@ -131,9 +128,7 @@ impl Formula for FreeTorque {
 pub(super) struct BaseAcceleration;
 
 fn free_base<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-    let motion = at.motion;
-    at.formulation
-        .free_base(at.arm, at.at, [&motion.qd, &motion.qdd])
+    (at.formulation).free_base(at.arm, at.at, [&at.motion.qd, &at.motion.qdd])
 }
 
 impl Formula for BaseAcceleration {
@@ -166,5 +161,75 @@ impl Formula for BaseAcceleration {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = [&at.motion.qd[..], &at.motion.qdd];
         Some(at.composite.in_flight(motion, at.form)?.1.to_vec())
+    }
+}
+
+/// D_ik, i and k of the base
+pub(super) struct BaseInertia;
+impl Formula for BaseInertia {
+    const FACTS: Facts = Facts {
+        field: "base",
+        letter: "Dbase",
+        summary: "Inertia of the whole robot at the base, linear over angular.",
+        arguments: &[Argument::Position],
+        shape: Shape(&[Axis::Fixed(6), Axis::Fixed(6)]),
+        unit: |at| kilograms(metres(at)),
+        choices: Some(&[Choice::Travel]),
+        payload_dependence: PayloadDependence::Torque,
+        on_floating_base: true,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        base(at.formulation.inertia(at.arm, at.at))
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(base(at.composite.inertia(at.form.travel)))
+    }
+}
+
+fn base<S: Divide>(d: Vec<Vec<S>>) -> Vec<S> {
+    let rows: Vec<usize> = (0..BASE_COORDINATES).collect();
+    submatrix(&d, &rows).concat()
+}
+
+/// D_ik, i of the base and k a joint
+pub(super) struct CouplingInertia;
+impl Formula for CouplingInertia {
+    const FACTS: Facts = Facts {
+        field: "coupling",
+        letter: "Dcoupling",
+        summary: "Inertia that couples the base, linear over angular, and each joint.",
+        shape: Shape(&[Axis::Fixed(6), Axis::Links]),
+        ..BaseInertia::FACTS
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.inertia(at.arm, at.at)[..BASE_COORDINATES].concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(at.composite.inertia(at.form.travel)[..BASE_COORDINATES].concat())
+    }
+}
+
+/// D_ik, i and k joints of one limb
+pub(super) struct LimbInertia;
+impl Formula for LimbInertia {
+    const FACTS: Facts = Facts {
+        field: "limbs",
+        letter: "Dlimb",
+        summary: "Inertia between the joints of a limb: one block a limb, one behind the other, each row by row.",
+        shape: Shape(&[Axis::Limbs]),
+        ..BaseInertia::FACTS
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        at.formulation.inertia(at.arm, at.at).concat()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(at.composite.inertia(at.form.travel).concat())
     }
 }

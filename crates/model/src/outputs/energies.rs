@@ -12,14 +12,12 @@ use crate::equations::matrix::{halved, minus, times, total};
 use crate::scalar::{Divide, Scalar};
 
 pub(super) struct KineticEnergy;
-
 impl Formula for KineticEnergy {
     const FACTS: Facts = Facts {
         field: "kinetic",
         letter: "T",
         summary: "Kinetic energy T.",
         arguments: &[Argument::Position, Argument::Velocity],
-        shape: Shape::SCALAR,
         unit: |_| "J",
         given: Some("kinetic"),
         choices: Some(&[Choice::Travel]),
@@ -45,14 +43,12 @@ impl Formula for KineticEnergy {
 }
 
 pub(super) struct PotentialEnergy;
-
 impl Formula for PotentialEnergy {
     const FACTS: Facts = Facts {
         field: "potential",
         letter: "U",
         summary: "Potential energy U.",
         arguments: &[Argument::Position],
-        shape: Shape::SCALAR,
         unit: |_| "J",
         given: Some("potential"),
         depends_on_base: true,
@@ -67,7 +63,6 @@ impl Formula for PotentialEnergy {
 }
 
 pub(super) struct Momentum;
-
 impl Formula for Momentum {
     const FACTS: Facts = Facts {
         field: "p",
@@ -92,7 +87,6 @@ impl Formula for Momentum {
 }
 
 pub(super) struct MomentumSlope;
-
 impl Formula for MomentumSlope {
     const FACTS: Facts = Facts {
         field: "ct_qd",
@@ -124,13 +118,12 @@ fn drift<'a, S: Scalar + 'a>(
     friction: impl Iterator<Item = &'a Friction<S>>,
     qd: &[S],
 ) -> Vec<S> {
-    let rest = slope
-        .iter()
-        .zip(&gravity)
-        .map(|(slope, c)| minus(slope, c))
-        .zip(friction.zip(qd));
-    rest.map(|(rest, (friction, qd))| minus(&rest, &friction.torque(qd)))
-        .collect()
+    let terms = slope.iter().zip(&gravity).zip(friction.zip(qd));
+    let drift = terms.map(|((slope, c), (friction, qd))| {
+        let rest = minus(slope, c);
+        minus(&rest, &friction.torque(qd))
+    });
+    drift.collect()
 }
 
 impl Formula for MomentumDrift {

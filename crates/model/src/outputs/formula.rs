@@ -8,7 +8,7 @@ use super::operational::damped_mobility;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
-use crate::equations::chain::{Chain, Displacement, Form};
+use crate::equations::chain::{Chain, Form, Posture};
 use crate::equations::factor::picked;
 use crate::equations::following::{FollowerLine, gathered_square};
 use crate::equations::load::LoadArguments;
@@ -179,7 +179,7 @@ pub struct Regrouped<'a, S> {
     /// The chain at its position.
     pub chain: &'a Chain<S>,
     /// The positions of its joints.
-    pub at: &'a [Displacement<S>],
+    pub at: &'a Posture<S>,
     /// Its composite bodies.
     pub composite: Composite<'a, S>,
     /// The motion of its joints.

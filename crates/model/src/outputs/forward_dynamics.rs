@@ -10,7 +10,7 @@ use crate::equations::chain::{EliminatedTip, Unknowns};
 use crate::equations::factor::picked;
 use crate::equations::following::{gathered, spread};
 use crate::equations::forward::{free, inverted, solved};
-use crate::equations::matrix::{differences, zeros};
+use crate::equations::matrix::{Matrix, differences, zeros};
 use crate::scalar::Divide;
 
 pub(super) struct Acceleration;
@@ -92,7 +92,7 @@ pub(super) fn beside_one<S: Divide>(a: &[Vec<S>], x: &[S], rows: &[usize]) -> Ve
     places.map(entry).collect()
 }
 
-pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
+pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Matrix<S> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
     match EliminatedTip::new(&at.composite, moves).filter(|_| at.following.is_empty()) {
         Some(unspun) => unspun.inertia_inverse(moves, travel),
@@ -113,9 +113,8 @@ impl Formula for InertiaInverse {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let form = at.formulation;
-        form.inertia_inverse(at.arm, at.at, &at.motion.moves)
-            .concat()
+        let inverse = (at.formulation).inertia_inverse(at.arm, at.at, &at.motion.moves);
+        inverse.concat()
     }
 
     /// Returns D D⁻¹ − 1 over the joints that move.

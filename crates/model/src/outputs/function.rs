@@ -47,10 +47,9 @@ impl Definition {
             name,
             summary,
             results,
-            structure: if results.len() > 1 {
-                Some(in_rust)
-            } else {
-                None
+            structure: match results.len() > 1 {
+                true => Some(in_rust),
+                false => None,
             },
             by_default: false,
             parts: &[],
@@ -107,11 +106,9 @@ impl Function {
             Some(_) => function.takes_floating_base(),
             None => function.takes_fixed_base(),
         };
-        let follows = !robot.followers.is_empty();
+        let follows = |f: &Function| robot.followers.is_empty() || f.takes_followers();
         let functions = Function::ALL.into_iter().filter(has);
-        functions
-            .filter(|function| !follows || function.takes_followers())
-            .collect()
+        functions.filter(follows).collect()
     }
 
     /// Returns its name in generated code, on the command line and in the macro.
@@ -140,26 +137,20 @@ impl Function {
 
     /// Returns true if arms with followers have it: nothing of links, and no second derivatives.
     pub fn takes_followers(self) -> bool {
-        let mut quantities = self.quantities().iter();
         let is_second = self.arguments().contains(&Argument::Multiplier);
-        !is_second && !quantities.any(|quantity| quantity.is_of_links())
+        !is_second && !self.quantities().iter().any(|q| q.is_of_links())
     }
 
     /// Returns true if robots whose base floats have it: nothing of the symbols h_ikm, no parts of
     /// rotation and translation, and no second derivatives.
     pub fn takes_floating_base(self) -> bool {
-        let quantities = self.quantities().iter();
         let is_second = self.arguments().contains(&Argument::Multiplier);
-        !is_second
-            && !quantities
-                .clone()
-                .any(|quantity| quantity.facts().on_fixed_base)
+        !is_second && !self.quantities().iter().any(|q| q.facts().on_fixed_base)
     }
 
     /// Returns true if robots whose base is fixed have it.
     pub fn takes_fixed_base(self) -> bool {
-        let mut quantities = self.quantities().iter();
-        !quantities.any(|quantity| quantity.facts().on_floating_base)
+        !self.quantities().iter().any(|q| q.facts().on_floating_base)
     }
 
     /// Returns its dependence on a payload: the strongest of its results.
@@ -222,9 +213,7 @@ impl Function {
             columns,
         };
         let results = self.quantities().iter();
-        results
-            .flat_map(|quantity| quantity.written(&written))
-            .collect()
+        results.flat_map(|q| q.written(&written)).collect()
     }
 
     /// Returns the residuals of the equations that these results over all joints solve.
@@ -242,7 +231,8 @@ impl Function {
             motion,
             columns: &[],
         };
-        let sizes = arm_sizes(arm);
+        let (rows, floating) = (arm.links.len(), arm.base_joints());
+        let sizes = Sizes::floating(floating, rows - floating, 0).over_all(rows);
         let mut rest = results;
         let mut residual = Vec::new();
         for quantity in self.quantities() {
@@ -277,15 +267,6 @@ impl Function {
         }
         forms
     }
-}
-
-fn arm_sizes<S>(arm: &Arm<S>) -> Sizes {
-    let (rows, floating) = (arm.links.len(), arm.base_joints());
-    let sizes = Sizes {
-        floating,
-        ..Sizes::whole(rows - floating)
-    };
-    sizes.over_all(rows)
 }
 
 impl fmt::Display for Function {

@@ -11,7 +11,6 @@ use crate::scalar::Divide;
 
 /// [R | p] of ⁰A_n (eq. 2.1)
 pub(super) struct Pose;
-
 impl Formula for Pose {
     const FACTS: Facts = Facts {
         field: "pose",
@@ -36,7 +35,6 @@ impl Formula for Pose {
 
 /// [R_i | p_i] of ⁰A_i (eq. 2.1)
 pub(super) struct LinkPoses;
-
 impl Formula for LinkPoses {
     const FACTS: Facts = Facts {
         field: "poses",
@@ -58,13 +56,11 @@ impl Formula for LinkPoses {
 }
 
 pub(super) struct Jacobian;
-
 impl Formula for Jacobian {
     const FACTS: Facts = Facts {
         field: "jacobian",
         letter: "J",
         summary: "Jacobian J, linear over angular.",
-        arguments: &[Argument::Position],
         shape: Shape(&[Axis::Fixed(6), Axis::Coordinates]),
         unit: |at| match at {
             [Index::Fixed(..3), Index::Turning] => "m",
@@ -72,9 +68,8 @@ impl Formula for Jacobian {
             _ => "1",
         },
         given: Some("jacobian"),
-        depends_on_base: true,
         frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..Pose::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -83,7 +78,6 @@ impl Formula for Jacobian {
 }
 
 pub(super) struct JacobianRate;
-
 impl Formula for JacobianRate {
     const FACTS: Facts = Facts {
         field: "jacobian_rate",
@@ -97,9 +91,7 @@ impl Formula for JacobianRate {
             _ => "1/s²",
         },
         given: Some("jacobian_rate_qd"),
-        depends_on_base: true,
-        frame: FrameChoice::Rows,
-        ..Facts::PLAIN
+        ..Jacobian::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
@@ -110,7 +102,6 @@ impl Formula for JacobianRate {
 
 /// (f_i, n_i) (Table 1)
 pub(super) struct Wrench;
-
 impl Formula for Wrench {
     const FACTS: Facts = Facts {
         field: "wrenches",

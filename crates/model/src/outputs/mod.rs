@@ -7,8 +7,7 @@
 //! - `at`: one of them at a frame of the robot
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
-//! - `argument`: what functions read
-//! - `runtime`: parameters of the arm that are arguments on request, and the load of a payload
+//! - `argument`: what functions read: joint vectors, and on request parameters, as a payload's load
 //! - `formula`: what is said of a quantity, and what its formulas are given
 //! - the others: quantities that belong together
 //!
@@ -24,20 +23,16 @@ mod function;
 mod quantity;
 #[macro_use]
 mod registry;
-mod runtime;
 mod shape;
 
-mod blocks;
 mod centroidal;
 mod contact;
-mod contacts;
 mod derivatives;
 mod energies;
 mod forward_dynamics;
 mod kinematics;
 mod operational;
 mod regressors;
-mod second_derivatives;
 mod torques;
 
 use alloc::vec::Vec;
@@ -45,12 +40,11 @@ use alloc::vec::Vec;
 use crate::scalar::Divide;
 use formula::Formula;
 
-pub use argument::Argument;
+pub use argument::{Argument, PayloadDependence, RuntimeParameter};
 pub use at::QuantityAt;
 pub use formula::{Motion, Regrouped, Written};
 pub use function::{NamedFunction, RegressorColumns};
 pub use quantity::{ErrorScale, Facts, Index};
-pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};
 
 registry! {
@@ -80,8 +74,7 @@ registry! {
     coriolis_matrix: CoriolisMatrix { torques: CoriolisMatrix }
         "Coriolis matrix C(q, q̇) of the Christoffel symbols: C q̇ = h, and Ḋ - 2C is skew.";
     dalembert_terms: DalembertTerms {
-        torques:
-        RotationInertia, TranslationInertia, RotationCoriolis, TranslationCoriolis
+        torques: RotationInertia, TranslationInertia, RotationCoriolis, TranslationCoriolis
     }
         "What rotation and translation of the links contribute: D^rot, D^tran, h^rot, h^tran, and c; armature in neither D.",
         results: &[
@@ -150,26 +143,24 @@ registry! {
     joint_torques_free: JointTorquesFree { centroidal: FreeTorque, BaseAcceleration }
         "Torques that give the joints q̈ while nothing holds the base, and the base's accelerations then; those in q̈ are not read.",
         structure: Some("JointTorquesFree");
-    inertia_blocks: InertiaBlocks { blocks: BaseInertia, CouplingInertia, LimbInertia }
+    inertia_blocks: InertiaBlocks { centroidal: BaseInertia, CouplingInertia, LimbInertia }
         "Inertia matrix D(q) of a robot whose base floats, without the zeros between its limbs: the base's six rows and columns, the coupling of base and joints, and one block a limb.",
         structure: Some("InertiaBlocks");
-    contact_jacobians: ContactJacobians { contacts: ContactJacobians }
+    contact_jacobians: ContactJacobians { contact: ContactJacobians }
         "Velocities of points in contact by each coordinate, 3k×n, in base axes: `contact_jacobians@left_foot,right_foot`.";
-    contact_bias: ContactBias { contacts: ContactBias }
+    contact_bias: ContactBias { contact: ContactBias }
         "J̇q̇ of points in contact, 3k: their accelerations in base axes that velocities alone give.";
-    contact_forward_dynamics: ContactForwardDynamics { contacts: HeldAcceleration, ContactForces }
+    contact_forward_dynamics: ContactForwardDynamics { contact: HeldAcceleration, ContactForces }
         "Forward dynamics while forces f hold points where they are: D q̈ - Jᵀf = τ - h - c - b∘q̇ and J q̈ + λ² f = -J̇q̇.",
         structure: Some("ContactForwardDynamics");
     inverse_dynamics_second_derivatives: InverseDynamicsSecondDerivatives {
-        second_derivatives:
-        TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,
+        derivatives: TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,
         TorqueByAccelerationAndPosition
     }
         "Second derivatives of the inverse dynamics, of λᵀτ for a given λ.";
     forward_dynamics_second_derivatives: ForwardDynamicsSecondDerivatives {
-        second_derivatives:
-        AccelerationByPositions, AccelerationByPositionAndVelocity, AccelerationByVelocities,
-        AccelerationByTorqueAndPosition
+        derivatives: AccelerationByPositions, AccelerationByPositionAndVelocity,
+        AccelerationByVelocities, AccelerationByTorqueAndPosition
     }
         "Second derivatives of the forward dynamics, of λᵀq̈ for a given λ.";
 }

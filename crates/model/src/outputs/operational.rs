@@ -12,7 +12,7 @@ use crate::equations::factor::{Factor, submatrix};
 use crate::equations::following::{gathered, gathered_rows};
 use crate::equations::forward::free;
 use crate::equations::link_axes::SeenHand;
-use crate::equations::matrix::zeros;
+use crate::equations::matrix::{Matrix, zeros};
 use crate::equations::operational::{NormalEquations, TaskSpace, driven_by};
 use crate::scalar::Divide;
 
@@ -38,7 +38,7 @@ pub(super) fn hand<'a, S: Divide>(at: &Regrouped<'a, S>) -> Option<SeenHand<'a, 
     Some(SeenHand::new(whole.formulation, arm, at.form.hand.axes))
 }
 
-fn chain_jacobian<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> Vec<Vec<S>> {
+fn chain_jacobian<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> Matrix<S> {
     let jacobian = hand.jacobian();
     let rows = jacobian.iter().map(|row| at.pick(row));
     gathered_rows(at.following, rows.collect())
@@ -88,7 +88,7 @@ impl Formula for OperationalInertiaInverse {
 
 pub(super) struct OperationalInertia;
 
-pub(super) fn damped_mobility<S: Divide>(at: &Written<'_, S>) -> Vec<Vec<S>> {
+pub(super) fn damped_mobility<S: Divide>(at: &Written<'_, S>) -> Matrix<S> {
     written_space(at).damped(&at.motion.damping[0])
 }
 
@@ -122,7 +122,6 @@ impl Formula for OperationalInertia {
 }
 
 pub(super) struct ConsistentInverse;
-
 impl Formula for ConsistentInverse {
     const FACTS: Facts = Facts {
         field: "consistent_inverse",
@@ -179,7 +178,6 @@ impl Formula for ConsistentInverse {
 }
 
 pub(super) struct OperationalBias;
-
 impl Formula for OperationalBias {
     const FACTS: Facts = Facts {
         field: "operational_bias",
@@ -207,10 +205,8 @@ impl Formula for OperationalBias {
         let motion = at.motion;
         let (hand, qd) = (hand(at)?, &at.textbook.as_ref()?.motion.qd);
         let chain = at.chain.clone().without_friction();
-        let free = Regrouped {
-            chain: &chain,
-            ..at.clone()
-        };
+        let mut free = at.clone();
+        free.chain = &chain;
         let loads = gathered(at.following, torques(&free, &zeros(motion.qd.len())));
         let (jacobian, factor) = (chain_jacobian(at, &hand), factor(at));
         let driven = driven_by(&jacobian, &factor, &loads, &motion.moves);
@@ -222,7 +218,6 @@ impl Formula for OperationalBias {
 
 /// Torques through Nᵀ do not accelerate the hand.
 pub(super) struct NullSpace;
-
 impl Formula for NullSpace {
     const FACTS: Facts = Facts {
         field: "null_space",

@@ -229,7 +229,7 @@ impl Quantity {
             match axis {
                 Axis::Fixed(_) => indices.push(Index::Fixed(self.component(place))),
                 Axis::Coordinates | Axis::Links | Axis::Limbs => {
-                    indices.extend(coordinates(axis, place, rows, sizes).map(kind));
+                    indices.extend(coordinates(axis, place, rows, sizes).into_iter().map(kind));
                 }
                 Axis::LinkParameters => {
                     let parameter = LinkParameter::ALL[place % LinkParameter::COUNT];
@@ -250,9 +250,8 @@ impl Quantity {
         }
     }
 
-    /// Returns the name of one entry of a quantity over these coordinates, one-based: `D_12`, `h_123`,
-    /// with separators where a robot has more than nine, or an axis more entries. Links are counted
-    /// by their joints.
+    /// Returns the name of one entry over these coordinates, one-based: `D_12`, `h_123`, with commas
+    /// where a robot has more than nine, or an axis more entries. Links are counted by their joints.
     pub fn entry(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
         let sizes = sizes.over(rows);
@@ -261,13 +260,9 @@ impl Quantity {
                 Axis::Coordinates => 0,
                 _ => sizes.floating,
             };
-            let coordinate_rows: Vec<usize> = coordinates(axis, place, rows, sizes).collect();
-            match coordinate_rows.is_empty() {
-                true => vec![place + 1],
-                false => coordinate_rows
-                    .into_iter()
-                    .map(|row| row - base + 1)
-                    .collect(),
+            match coordinates(axis, place, rows, sizes).as_slice() {
+                [] => vec![place + 1],
+                rows => rows.iter().map(|row| row - base + 1).collect(),
             }
         };
         let is_long =
@@ -329,12 +324,7 @@ impl Quantity {
 
 /// Returns the coordinates at a place along an axis over these rows: one, or two of a limb's block;
 /// none of other axes.
-fn coordinates(
-    axis: Axis,
-    place: usize,
-    rows: &[usize],
-    sizes: Sizes,
-) -> impl Iterator<Item = usize> {
+fn coordinates(axis: Axis, place: usize, rows: &[usize], sizes: Sizes) -> Vec<usize> {
     let over = sizes.over(rows);
     let places = match axis {
         Axis::Coordinates => [Some(place), None],
@@ -346,7 +336,7 @@ fn coordinates(
         _ => [None; 2],
     };
     let rows = places.map(|place| rows.get(place?).copied());
-    rows.into_iter().flatten()
+    rows.into_iter().flatten().collect()
 }
 
 pub(super) fn load(at: &[Index]) -> &'static str {

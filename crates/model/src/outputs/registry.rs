@@ -74,7 +74,7 @@ macro_rules! registry {
             pub fn facts(self) -> &'static quantity::Facts {
                 match self {
                     $($($(Quantity::$quantity => &$file::$quantity::FACTS,)+)?)*
-                    Quantity::Load => &runtime::Load::FACTS,
+                    Quantity::Load => &argument::Load::FACTS,
                     Quantity::At(at) => at.facts(),
                 }
             }
@@ -92,7 +92,7 @@ macro_rules! registry {
             pub fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::written(at),)+)?)*
-                    Quantity::Load => runtime::Load::written(at),
+                    Quantity::Load => argument::Load::written(at),
                     Quantity::At(framed) => framed.of_frame(at, |quantity, at| quantity.written(at)),
                 }
             }
@@ -101,7 +101,7 @@ macro_rules! registry {
             pub fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::regrouped(at),)+)?)*
-                    Quantity::Load => runtime::Load::regrouped(at),
+                    Quantity::Load => argument::Load::regrouped(at),
                     Quantity::At(framed) => framed.regrouped(at),
                 }
             }
@@ -110,7 +110,7 @@ macro_rules! registry {
             pub fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::residual(at, values),)+)?)*
-                    Quantity::Load => runtime::Load::residual(at, values),
+                    Quantity::Load => argument::Load::residual(at, values),
                     Quantity::At(framed) => framed.of_frame(at, |quantity, at| quantity.residual(at, values)),
                 }
             }
@@ -119,7 +119,7 @@ macro_rules! registry {
             pub fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
                 match self {
                     $($($(Quantity::$quantity => $file::$quantity::divisor(at),)+)?)*
-                    Quantity::Load => runtime::Load::divisor(at),
+                    Quantity::Load => argument::Load::divisor(at),
                     Quantity::At(framed) => framed.of_frame(at, |quantity, at| quantity.divisor(at)),
                 }
             }

@@ -10,7 +10,6 @@ use crate::scalar::Divide;
 
 /// Y_ik of τ = Y π, with as few columns as there can be.
 pub(super) struct BaseRegressor;
-
 impl Formula for BaseRegressor {
     const FACTS: Facts = Facts {
         field: "y",
@@ -56,7 +55,6 @@ fn unit(at: &[Index]) -> &'static str {
 }
 
 pub(super) struct LinkRegressor;
-
 impl Formula for LinkRegressor {
     const FACTS: Facts = Facts {
         symbol: "Y over all links' parameters",
@@ -82,7 +80,6 @@ impl Formula for LinkRegressor {
 /// velocities. With C of the Christoffel symbols Ḋ − 2C is skew, and so the energy of the error
 /// falls whatever the estimate is.
 pub(super) struct PassivityRegressor;
-
 impl Formula for PassivityRegressor {
     const FACTS: Facts = Facts {
         symbol: "Y of D a + C v + c + b∘v",

@@ -27,7 +27,7 @@ pub enum Axis {
 }
 
 /// The numbers that the lengths of axes follow from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
     /// The coordinates that results are over.
     pub rows: usize,
@@ -52,37 +52,27 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Returns the sizes of results over all joints on a fixed base, of which none is over base
-    /// parameters.
+    /// Returns the sizes of results over all joints on a fixed base, none over base parameters.
     pub fn whole(joints: usize) -> Sizes {
         Sizes {
             rows: joints,
             links: joints,
             joints,
-            floating: 0,
-            limbs: 0,
-            blocks: 0,
-            base: 0,
-            load: 0,
-            bodies: 0,
             table: joints,
+            ..Sizes::default()
         }
     }
 
     /// Returns the sizes of results over all coordinates of a robot.
     pub fn of(robot: &Robot) -> Sizes {
-        let limbs = match robot.floating {
-            Some(_) => robot.limb_starts(),
-            None => 0,
-        };
+        let limbs = robot.floating.as_ref().map_or(0, |_| robot.limb_starts());
         Sizes {
             table: robot.rows().len(),
             ..Sizes::floating(robot.base_coordinates(), robot.joints.len(), limbs)
         }
     }
 
-    /// Returns the sizes of results over all coordinates of a robot with limbs that begin with these
-    /// joints.
+    /// Returns the sizes of results over all coordinates, with limbs that begin with these joints.
     pub fn floating(floating: usize, joints: usize, limbs: u64) -> Sizes {
         let sizes = Sizes {
             floating,
@@ -106,14 +96,11 @@ impl Sizes {
     /// Returns the sizes over these coordinates.
     #[must_use]
     pub fn over(self, rows: &[usize]) -> Sizes {
+        let limbs = self.of_limbs(rows);
         Sizes {
             rows: rows.len(),
             links: rows.iter().filter(|row| **row >= self.floating).count(),
-            blocks: self
-                .of_limbs(rows)
-                .iter()
-                .map(|limb| limb.len().pow(2))
-                .sum(),
+            blocks: limbs.iter().map(|limb| limb.len().pow(2)).sum(),
             ..self
         }
     }
@@ -124,10 +111,8 @@ impl Sizes {
         let joint = |row: usize| row.checked_sub(self.floating).filter(|joint| *joint < 64);
         let limb = |row: usize| joint(row).map(|joint| (self.limbs << (63 - joint)).count_ones());
         let of_limb = |number: u32| {
-            let places = 0..rows.len();
-            places
-                .filter(|place| limb(rows[*place]) == Some(number))
-                .collect::<Vec<usize>>()
+            let places = (0..rows.len()).filter(|place| limb(rows[*place]) == Some(number));
+            places.collect::<Vec<usize>>()
         };
         let limbs = (1..=self.limbs.count_ones()).map(of_limb);
         limbs.filter(|places| !places.is_empty()).collect()

@@ -50,7 +50,6 @@ impl Formula for Torque {
 
 /// c_i (eqs. 2.15, 4.5)
 pub(super) struct Gravity;
-
 impl Formula for Gravity {
     const FACTS: Facts = Facts {
         field: "c",
@@ -74,7 +73,6 @@ impl Formula for Gravity {
 
 /// D_ik (eqs. 2.13, 4.2)
 pub(super) struct Inertia;
-
 impl Formula for Inertia {
     const FACTS: Facts = Facts {
         field: "d",
@@ -99,7 +97,6 @@ impl Formula for Inertia {
 
 /// h_i (eqs. 2.14, 4.3, 4.4)
 pub(super) struct Coriolis;
-
 impl Formula for Coriolis {
     const FACTS: Facts = Facts {
         field: "h",
@@ -130,7 +127,6 @@ impl Formula for Coriolis {
 }
 
 pub(super) struct Christoffel;
-
 impl Formula for Christoffel {
     const FACTS: Facts = Facts {
         field: "h",
@@ -161,7 +157,6 @@ impl Formula for Christoffel {
 
 /// C_ik = Σ_m h_ikm q̇_m
 pub(super) struct CoriolisMatrix;
-
 impl Formula for CoriolisMatrix {
     const FACTS: Facts = Facts {
         field: "c_matrix",
@@ -200,7 +195,6 @@ pub(super) const ARGUMENTS: &[Argument] = &[
 /// (D a + C v + c + b∘v)_i: what passivity-based controllers (Slotine and Li) ask of a model,
 /// with v and a the velocity and the acceleration wished for.
 pub(super) struct Passivity;
-
 impl Formula for Passivity {
     const FACTS: Facts = Facts {
         field: "tau",
@@ -216,8 +210,8 @@ impl Formula for Passivity {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
-        let wished = [&motion.v[..], &motion.a[..]];
-        at.formulation.passivity(at.arm, at.at, &motion.qd, wished)
+        let rates = [&motion.qd[..], &motion.v, &motion.a];
+        at.formulation.passivity(at.arm, at.at, rates)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -227,7 +221,6 @@ impl Formula for Passivity {
 }
 
 pub(super) struct RotationInertia;
-
 impl Formula for RotationInertia {
     const FACTS: Facts = Facts {
         field: "d_rot",
@@ -249,7 +242,6 @@ impl Formula for RotationInertia {
 }
 
 pub(super) struct TranslationInertia;
-
 impl Formula for TranslationInertia {
     const FACTS: Facts = Facts {
         field: "d_tran",
@@ -265,7 +257,6 @@ impl Formula for TranslationInertia {
 }
 
 pub(super) struct RotationCoriolis;
-
 impl Formula for RotationCoriolis {
     const FACTS: Facts = Facts {
         field: "h_rot",
@@ -284,7 +275,6 @@ impl Formula for RotationCoriolis {
 }
 
 pub(super) struct TranslationCoriolis;
-
 impl Formula for TranslationCoriolis {
     const FACTS: Facts = Facts {
         field: "h_tran",

@@ -2,7 +2,9 @@
 
 use num_traits::{One, Signed, Zero};
 
-use crate::equations::matrix::{Columns, Vector, cross, dot, opposite, scaled, zero_vector};
+use crate::equations::matrix::{
+    Columns, Vector, cross, dot, identity, opposite, scaled, three, transposed, zero_vector,
+};
 use crate::equations::{SinCosPair, pose_of};
 use crate::number::recover::{recovered, short};
 use crate::number::{Angle, Rational, Wide};
@@ -27,11 +29,9 @@ pub fn pose(placement: &Placement) -> Columns<Wide> {
 
 /// Inverts it: rows for columns, and the origin seen from itself.
 pub fn inverse(pose: &Columns<Wide>) -> Columns<Wide> {
-    let axes = core::array::from_fn(|i| core::array::from_fn(|k| pose.axes[k][i]));
-    Columns {
-        axes,
-        origin: opposite(&pose.rotate_back(&pose.origin)),
-    }
+    let axes = transposed(&pose.axes);
+    let origin = opposite(&pose.rotate_back(&pose.origin));
+    Columns { axes, origin }
 }
 
 /// Returns the placement that a pose is, lengths beside those of this size.
@@ -48,10 +48,9 @@ pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
             Angle::recovered(&x[1], &x[0]),
         ),
     };
-    Placement {
-        xyz: pose.origin.each_ref().map(|x| recovered(x, size)),
-        rpy: [roll, pitch, yaw],
-    }
+    let xyz = pose.origin.each_ref().map(|x| recovered(x, size));
+    let rpy = [roll, pitch, yaw];
+    Placement { xyz, rpy }
 }
 
 /// Returns a body given in a frame, seen from one in which that frame has this pose, which was
@@ -75,20 +74,17 @@ pub fn moved(body: &Body, pose: &Columns<Wide>, size: &Rational) -> Body {
 pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
     let SinCosPair { sin, cos } = Wide::sincos(angle);
     let rest = Wide::one().sub(&cos);
-    let column = |k: usize| {
-        let mut unit: Vector<Wide> = zero_vector();
-        unit[k] = Wide::one();
-        let across = cross(about, &unit);
+    let units = identity();
+    let axes = three(|k| {
+        let across = cross(about, &units[k]);
         let along = rest.mul(&about[k]);
-        core::array::from_fn(|i| {
-            let turned = cos.mul(&unit[i]).add(&sin.mul(&across[i]));
+        three(|i| {
+            let turned = cos.mul(&units[k][i]).add(&sin.mul(&across[i]));
             turned.add(&along.mul(&about[i]))
         })
-    };
-    Columns {
-        axes: [column(0), column(1), column(2)],
-        origin: zero_vector(),
-    }
+    });
+    let origin = zero_vector();
+    Columns { axes, origin }
 }
 
 /// Returns the unit vector along a direction, unless that is zero.

@@ -2,8 +2,7 @@
 //!
 //! A data sheet or a URDF says where each link's frame is in the one before at q = 0, and about
 //! which of its axes the joint moves. The equations want DH rows. [`derive()`] finds these, once,
-//! when the robot is read: so every formulation, proof and search sees the same rows whichever way
-//! they were written.
+//! when the robot is read: every formulation, proof and search sees the same rows either way.
 //!
 //! - this file: what is given, and the walk from the base to the hand
 //! - `row`: one row, from an axis to the next
@@ -14,8 +13,7 @@
 //! it can have, it is the one in which θ_i is nearer to zero. Frame 0 is on the first axis, next to
 //! the origin of the base; the last frame is at the origin of the last link's own frame. What is
 //! left over at both ends are the robot's base, its tool and the frame of its payloads, so that
-//! poses are those of the frames which were given, and what the hand carries is given in the last
-//! link's own.
+//! poses are those of the frames which were given, and loads of the hand are in the last link's.
 //!
 //! Everything is computed with 256 bits and then recovered ([`recover`](crate::number::recover)):
 //! exact where the geometry is, rounded once where it is not.
@@ -57,19 +55,16 @@ pub struct NoDirection(pub usize);
 pub fn place(robot: &mut Robot, placed: &[Placed]) {
     for (joint, placed) in robot.joints.iter_mut().zip(placed) {
         let axis = frame::unit_fraction(&placed.axis).unwrap_or_else(|| placed.axis.clone());
-        joint.place = Some(Placed {
-            placement: placed.placement.clone(),
-            axis,
-        });
+        let placement = placed.placement.clone();
+        joint.place = Some(Placed { placement, axis });
     }
 }
 
 /// Gives a robot whose joints are placed its DH rows.
 ///
-/// The robot's centres of mass and inertias are in the links' own frames, its
-/// tool and its frame of payloads in the last link's; its rows are not read. All of
-/// them are replaced, and so is the base. Where there are fewer placements than joints, or the
-/// other way round, the rest is left alone.
+/// The robot's centres of mass and inertias are in the links' own frames, its tool and its frame of
+/// payloads in the last link's; its rows are not read. All of them are replaced, and so is the
+/// base. Where there are fewer placements than joints, or more, the rest is left alone.
 ///
 /// # Errors
 /// [`NoDirection`], and then the robot is unchanged.
@@ -77,10 +72,8 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
     let steps = placed.iter().enumerate().map(|(joint, placed)| {
         let axis = frame::direction(&placed.axis).ok_or(NoDirection(joint))?;
         let link = frame::pose(&placed.placement);
-        Ok(row::JointAxis {
-            along: link.rotate(&axis),
-            link,
-        })
+        let along = link.rotate(&axis);
+        Ok(row::JointAxis { along, link })
     });
     let axes = steps.collect::<Result<Vec<row::JointAxis>, NoDirection>>()?;
     let Some(first) = axes.first() else {
@@ -102,11 +95,8 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
             Some(next) => row::to_axis(&here, next, &size),
             None => row::to_link(&here),
         };
-        joint.theta = row.theta;
-        joint.d = recovered(&row.d, &size);
-        joint.a = recovered(&row.a, &size);
-        joint.alpha = row.alpha;
-        joint.beta = row.beta;
+        (joint.theta, joint.alpha, joint.beta) = (row.theta, row.alpha, row.beta);
+        [joint.d, joint.a] = [row.d, row.a].map(|length| recovered(&length, &size));
         let back = frame::inverse(&row.frame);
         let moved = frame::moved(&joint.body(), &back, &size);
         (joint.com, joint.inertia) = (moved.com, moved.inertia);
@@ -172,12 +162,10 @@ fn placed_in(back: &Columns<Wide>, placement: Option<&Placement>, size: &Rationa
 
 /// The length that others are small against: the arm stretched out, or a metre if it has none.
 fn size(robot: &Robot, placed: &[Placed]) -> Rational {
-    let ends = [&robot.base, &robot.tool, &robot.payload_frame]
-        .into_iter()
-        .flatten()
-        .chain(robot.frames.iter().map(|frame| &frame.placement));
-    let placements = placed.iter().map(|placed| &placed.placement).chain(ends);
-    let total: Rational = placements.map(Placement::size).sum();
+    let ends = robot.placements().into_iter().filter_map(|(_, end)| end);
+    let frames = robot.frames.iter().map(|frame| &frame.placement);
+    let joints = placed.iter().map(|placed| &placed.placement);
+    let total: Rational = joints.chain(ends).chain(frames).map(Placement::size).sum();
     if total.is_zero() { One::one() } else { total }
 }
 

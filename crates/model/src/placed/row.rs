@@ -3,13 +3,14 @@
 use super::frame::{length, unit};
 use super::{along, is_nothing};
 use crate::equations::SinCosPair;
-use crate::equations::matrix::{Columns, Vector, cross, difference, dot, opposite, scaled};
+use crate::equations::matrix::{
+    Columns, Vector, cross, difference, dot, identity, opposite, scaled,
+};
 use crate::number::{Angle, Rational, Wide};
-use crate::scalar::Scalar;
+use crate::scalar::{Divide, Scalar};
 
-/// Axes with a sine of the angle between them below this, and not parallel, are
-/// nearly parallel: 0.9°. Where it is more, the common normal is at most 64 times
-/// as far away as the axes are apart.
+/// Axes with a sine of the angle between them below this, and not parallel, are nearly parallel:
+/// 0.9°. Where it is more, the common normal is at most 64 times as far away as the axes are apart.
 pub const NEARLY_PARALLEL: f64 = 1.0 / 64.0;
 
 /// Sines below 2⁻¹⁵⁰ are none: of axes that are parallel.
@@ -31,17 +32,15 @@ pub(super) struct Row {
     pub(super) frame: Columns<Wide>,
 }
 
-/// Returns frame 0: on the first axis, next to the origin, its x as near to the base's as it can
-/// be, or to the base's y where the axis is along x.
+/// Returns frame 0: on the first axis, next to the origin, its x beside the base's x, else its y.
 pub(super) fn first_frame(first: &JointAxis) -> Columns<Wide> {
     let z = &first.along;
     let back = dot(&first.link.origin, z).neg();
-    let base = Columns::identity();
     // Along x: within 26°.
     let near_x = z[0].magnitude() > 0.9;
-    let start: &Vector<Wide> = &base.axes[usize::from(near_x)];
-    let across = along(start, &dot(start, z).neg(), z);
-    let x = unit(&across).unwrap_or(*start);
+    let start: Vector<Wide> = identity()[usize::from(near_x)];
+    let across = along(&start, &dot(&start, z).neg(), z);
+    let x = unit(&across).unwrap_or(start);
     frame(x, z, along(&first.link.origin, &back, z))
 }
 
@@ -74,15 +73,12 @@ pub(super) fn to_axis(here: &Columns<Wide>, next: &JointAxis, size: &Rational) -
 pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let u = &here.axes[2];
     let d = dot(&opposite(&here.origin), u);
-    let identity = Columns::identity();
-    let theta = turn(here, &identity.axes[0]);
-    let tilt = Angle::recovered(
-        &length(&cross(u, &identity.axes[2])),
-        &dot(u, &identity.axes[2]),
-    );
-    let keeps = tilt.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
+    let [ahead, _, up] = identity();
+    let turn = turn(here, &ahead);
+    let tilt = Angle::recovered(&length(&cross(u, &up)), &dot(u, &up));
+    let keeps = tilt.quarter_turns().is_some_and(|n| n % 2 == 0) && turn.quarter_turns().is_some();
     let (theta, x) = match keeps {
-        true => (theta, identity.axes[0]),
+        true => (turn, ahead),
         false => (Angle::default(), here.axes[0]),
     };
     Row {
@@ -101,9 +97,7 @@ fn askew(here: &Columns<Wide>, next: &JointAxis, normal: &Vector<Wide>) -> Row {
     let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0]));
     // p = d u + a x − s w
     let square = dot(normal, normal);
-    let d = dot(&cross(&p, w), normal)
-        .over(&square)
-        .unwrap_or_else(Wide::zero);
+    let d = dot(&cross(&p, w), normal).div(&square);
     let a = dot(&p, &x);
     let foot = along(&along(&here.origin, &d, u), &a, &x);
     Row {
@@ -141,9 +135,8 @@ fn parallel(here: &Columns<Wide>, next: &JointAxis, d: Wide, size: &Rational) ->
     }
 }
 
-/// Returns a common normal that may be far away: the frame stays beside the link's own
-/// origin, and turns about y too. z = Rx(α) Ry(β) z_0 is
-/// (sin β, −sin α cos β, cos α cos β) in the axes turned by θ.
+/// Keeps the frame beside the link's own origin where the common normal may be far away: it turns
+/// about y too, z = Rx(α) Ry(β) z_0 = (sin β, −sin α cos β, cos α cos β) in the axes turned by θ.
 fn nearly_parallel(here: &Columns<Wide>, next: &JointAxis, d: Wide, passes: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let origin = along(&here.origin, &d, u);
@@ -153,7 +146,7 @@ fn nearly_parallel(here: &Columns<Wide>, next: &JointAxis, d: Wide, passes: &Vec
     let [wx, wy, wz] = [dot(w, &x), dot(w, &y), dot(w, u)];
     let level = length(&[Wide::zero(), wy, wz]);
     // x of the new frame is (cos β, sin α sin β, −cos α sin β); with cos β = level.
-    let back = wx.over(&level).unwrap_or_else(Wide::zero);
+    let back = wx.div(&level);
     let tilt = along(&scaled(&wy, &y), &wz, u);
     let new_x = along(&scaled(&level, &x), &back.neg(), &tilt);
     Row {
@@ -166,8 +159,7 @@ fn nearly_parallel(here: &Columns<Wide>, next: &JointAxis, d: Wide, passes: &Vec
     }
 }
 
-/// Returns, of both directions of a normal, the one nearer to the frame's own x; to its
-/// y where it is across.
+/// Returns the direction of a normal that is nearer to the frame's x; to its y where it is across.
 fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
     let SinCosPair { sin, cos } = components(here, &x);
     let one = Rational::from_integer(1.into());
@@ -182,8 +174,6 @@ fn turn(here: &Columns<Wide>, x: &Vector<Wide>) -> Angle {
 }
 
 fn components(here: &Columns<Wide>, x: &Vector<Wide>) -> SinCosPair<Wide> {
-    SinCosPair {
-        sin: dot(&here.axes[1], x),
-        cos: dot(&here.axes[0], x),
-    }
+    let [cos, sin] = [0, 1].map(|axis| dot(&here.axes[axis], x));
+    SinCosPair { sin, cos }
 }

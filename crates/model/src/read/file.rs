@@ -9,7 +9,8 @@ use toml_span::Value;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, bodies, placement};
-use super::{Diagnostic, Reading, base, guard, joint, link, mimic, parent, scene, suggest, syntax};
+use super::{Diagnostic, Reading, base, guard, joint, link, mimic, scene, syntax};
+use crate::diagnostic::closest;
 use crate::placed::{derive, place};
 use crate::robot::{Convention, FloatingBase, Frame, Placed, Placement, Robot, RobotWarning};
 
@@ -50,14 +51,13 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
 
 /// Joints are counted without a base that floats, whose table is the first.
 fn in_file(robot: &Robot, place: &str) -> String {
-    let counted = place
-        .strip_prefix("joint/#")
-        .filter(|_| robot.floating.is_some())
-        .and_then(|rest| rest.split_once('/'));
-    match counted.and_then(|(number, key)| Some((number.parse::<usize>().ok()?, key))) {
-        Some((number, key)) => format!("joint/#{}/{key}", number + 1),
-        None => place.into(),
+    let counted = place.strip_prefix("joint/#").unwrap_or_default();
+    if let (Some(_), Some((number, key))) = (&robot.floating, counted.split_once('/'))
+        && let Ok(number) = number.parse::<usize>()
+    {
+        return format!("joint/#{}/{key}", number + 1);
     }
+    place.into()
 }
 
 fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Diagnostic>) {
@@ -75,8 +75,8 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Diagnostic>)
     let gravity = keys.required(cx, "gravity", GRAVITY, |cx, value| {
         cx.array(value, GRAVITY, Context::number)
     });
-    let [base, tool, payload_frame] =
-        ["base", "tool", "payload_frame"].map(|key| placement(cx, keys, key));
+    let [base, tool, payload_frame] = ["base", "tool", "payload_frame"]
+        .map(|key| placement(cx, keys, key).and_then(Placement::unless_identity));
     let payload_range = keys.table(cx, "limits", LIMITS, |cx, keys| bodies(cx, keys, "payload"));
     keys.optional(cx, "allow", allow);
     let notes = keys.optional(cx, "notes", notes);
@@ -114,7 +114,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Diagnostic>)
     };
     let frames = keys.optional(cx, "frame", |cx, list| frames(cx, &robot, list));
     robot.frames = frames.unwrap_or_default();
-    let parents = parent::read(cx, &robot, &read);
+    let parents = link::parents(cx, &robot, &read);
     for (joint, parent) in robot.joints.iter_mut().zip(parents) {
         joint.parent = parent;
     }
@@ -132,11 +132,11 @@ fn allow(cx: &mut Context, value: &Value) -> Option<()> {
         let text = cx.string(item)?;
         let mut words = RobotWarning::WORDS.iter();
         if let Some((_, warning)) = words.find(|(name, _)| *name == text) {
-            cx.sink.allow(*warning);
+            cx.sink.allowed.insert(*warning);
             return Some(());
         }
         let message = format!("there is no warning {}", quote(&text));
-        let help = match suggest::closest(&text, &names) {
+        let help = match closest(&text, &names) {
             Some(meant) => format!("did you mean \"{meant}\"?"),
             None => format!("warnings are: {}", names.join(", ")),
         };
@@ -146,11 +146,8 @@ fn allow(cx: &mut Context, value: &Value) -> Option<()> {
 }
 
 fn notes(cx: &mut Context, value: &Value) -> Option<Vec<String>> {
-    let items = cx.list(
-        value,
-        "an array of strings",
-        "notes = [\"without springs\"]",
-    )?;
+    let help = "notes = [\"without springs\"]";
+    let items = cx.list(value, "an array of strings", help)?;
     cx.each(items, |cx, _, item| cx.string(item))
 }
 
@@ -174,12 +171,8 @@ fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Joints<'v>> {
         cx.refuse::<()>(item, message, "this is the first too many");
     }
     let joints = cx.each(&items[..most.min(items.len())], |cx, index, item| {
-        let number = index + 1;
-        let (place, name) = (
-            format!("joint/#{}", number + first),
-            format!("joint {number}"),
-        );
-        let keys = Table::open(cx, item, place, name, EACH)?;
+        let place = format!("joint/#{}", index + 1 + first);
+        let keys = Table::open(cx, item, place, format!("joint {}", index + 1), EACH)?;
         Some(joint::read(cx, keys))
     });
     Some((base, joints?))
@@ -188,15 +181,12 @@ fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Joints<'v>> {
 fn frames(cx: &mut Context, robot: &Robot, list: &Value) -> Option<Vec<Frame>> {
     const NAME: &str = "name = \"camera\": functions are called after it, `jacobian_camera`";
     const LINK: &str = "link = 3, or the name of its joint: what the frame is fixed to";
+    const BRACKETS: &str = "write [[frame]], with two brackets";
     // Without joints, every link would be unknown as well.
     if robot.joints.is_empty() {
         return None;
     }
-    let items = cx.list(
-        list,
-        "[[frame]] tables",
-        "write [[frame]], with two brackets",
-    )?;
+    let items = cx.list(list, "[[frame]] tables", BRACKETS)?;
     cx.each(items, |cx, index, item| {
         let number = index + 1;
         let (place, name) = (format!("frame/#{number}"), format!("frame {number}"));
@@ -220,25 +210,16 @@ fn frames(cx: &mut Context, robot: &Robot, list: &Value) -> Option<Vec<Frame>> {
 
 /// Warnings about placed joints are about their placements, not about the rows.
 fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Diagnostic> {
-    let (branches, is_any) = (
-        robot.is_tree(),
-        read.iter().any(|joint| joint.placed.is_some()),
-    );
-    let is_placed = branches || is_any;
-    let (why, help) = match (branches, &robot.floating) {
-        (true, Some(_)) => (
-            "the base floats",
-            "give all joints a placement and an axis: rows of a table begin at a base that is fixed",
-        ),
-        (true, None) => (
-            "links branch",
-            "give all joints a placement and an axis: rows of a table cannot say where a branch \
-             begins",
-        ),
-        (false, _) => (
-            "others are",
-            "give all joints a placement and an axis, or all of them DH rows",
-        ),
+    let branches = robot.is_tree();
+    let is_placed = branches || read.iter().any(|joint| joint.placed.is_some());
+    let (why, rows) = match (branches, robot.floating.is_some()) {
+        (true, true) => ("the base floats", "begin at a base that is fixed"),
+        (true, false) => ("links branch", "cannot say where a branch begins"),
+        (false, _) => ("others are", ""),
+    };
+    let help = match branches {
+        true => format!("give all joints a placement and an axis: rows of a table {rows}"),
+        false => "give all joints a placement and an axis, or all of them DH rows".into(),
     };
     let mut placed: Vec<Placed> = Vec::with_capacity(read.len());
     for (index, joint) in read.into_iter().enumerate() {
@@ -246,7 +227,7 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Diag
             Some(placed_joint) => placed.push(placed_joint),
             None if is_placed => {
                 let message = format!("joint {} is not placed, and {why}", index + 1);
-                cx.sink.error(joint.span, message, help);
+                cx.sink.error(joint.span, message, &help);
             }
             None => {}
         }
@@ -259,10 +240,9 @@ fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Diag
     if branches {
         // The joints that are not placed are reported.
         let mut chain = robot.clone();
-        chain
-            .joints
-            .iter_mut()
-            .for_each(|joint| joint.parent = None);
+        for joint in &mut chain.joints {
+            joint.parent = None;
+        }
         chain.floating = None;
         chain.frames.retain(|frame| frame.row.is_some());
         return chain.validate();

@@ -4,6 +4,8 @@
 use alloc::format;
 use alloc::string::String;
 
+use crate::number::parse::split_sign;
+
 const DASHES: [char; 9] = [
     '\u{2010}', '\u{2011}', '\u{2012}', '\u{2013}', '\u{2014}', '\u{2015}', '\u{2212}', '\u{fe63}',
     '\u{ff0d}',
@@ -16,33 +18,28 @@ const SPACES: [char; 5] = ['\u{00a0}', '\u{2007}', '\u{2009}', '\u{202f}', '\u{2
 pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     const TOML: &str =
         "a robot file is TOML: `name = \"arm\"` and a [[joint]] table for every joint";
+    const URDF: &str = "a robot file is TOML: `dalembert import FILE` makes one of a URDF";
     let text = source.trim_start_matches('\u{feff}').trim_start();
     let after_bracket = text.strip_prefix('[').map(str::trim_start);
     if text.starts_with('{') || after_bracket.is_some_and(|rest| rest.starts_with('{')) {
         return Some(("JSON", TOML));
     }
-    if text.starts_with("<robot") || (text.starts_with('<') && text.contains("<robot")) {
-        return Some((
-            "XML, probably URDF",
-            "a robot file is TOML: `dalembert import FILE` makes one of a URDF",
-        ));
-    }
     if text.starts_with('<') {
-        return Some(("XML", TOML));
+        return Some(match text.contains("<robot") {
+            true => ("XML, probably URDF", URDF),
+            false => ("XML", TOML),
+        });
     }
     let mut lines = text.lines().map(str::trim_end);
     let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
-    let key = first
-        .split_once(':')
-        .map(|(key, value)| (key.trim_end(), value));
-    let word = |key: &str| {
+    let is_word = |key: &str| {
         let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '"' | '\'');
         !key.is_empty() && key.chars().all(plain)
     };
-    let keyed = key.is_some_and(|(key, value)| {
-        word(key) && (value.is_empty() || value.starts_with([' ', '\t']))
+    let is_keyed = first.split_once(':').is_some_and(|(key, value)| {
+        is_word(key.trim_end()) && (value.is_empty() || value.starts_with([' ', '\t']))
     });
-    (first == "---" || first.starts_with("%YAML") || keyed).then_some(("YAML", TOML))
+    (first == "---" || first.starts_with("%YAML") || is_keyed).then_some(("YAML", TOML))
 }
 
 pub(super) fn character(c: char) -> Option<(String, &'static str)> {
@@ -90,26 +87,20 @@ pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
 /// Gives `-9.81` for `[0, 0, -9,81]`.
 pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
     let inner = array.trim().trim_start_matches('[').trim_end_matches(']');
-    let mut words = inner
-        .split_whitespace()
-        .map(|word| word.trim_end_matches(','));
-    words.find_map(decimal_comma)
+    let mut words = inner.split_whitespace();
+    words.find_map(|word| decimal_comma(word.trim_end_matches(',')))
 }
 
 pub(super) fn leading_zeros(word: &str) -> Option<String> {
-    let (sign, digits) = match word.strip_prefix('-') {
-        Some(digits) => ("-", digits),
-        None => ("", word.strip_prefix('+').unwrap_or(word)),
-    };
+    let (negative, digits) = split_sign(word);
+    let sign = if negative { "-" } else { "" };
     let rest = digits.trim_start_matches('0');
     let zeros = digits.len() - rest.len();
-    let number = digits
-        .bytes()
-        .all(|b| b.is_ascii_digit() || b"._eE+-".contains(&b));
-    let (whole, next) = (rest.starts_with(|c: char| c.is_ascii_digit()), zeros + 1);
-    match (number, zeros, whole) {
+    let is_whole = rest.starts_with(|c: char| c.is_ascii_digit());
+    let is_part = |b: u8| b.is_ascii_digit() || b"._eE+-".contains(&b);
+    match (digits.bytes().all(is_part), zeros, is_whole) {
         (true, 1.., true) => Some(format!("{sign}{rest}")),
-        (true, 2.., false) => digits.get(next - 2..).map(|rest| format!("{sign}{rest}")),
+        (true, 2.., false) => digits.get(zeros - 1..).map(|rest| format!("{sign}{rest}")),
         _ => None,
     }
 }

@@ -1,7 +1,6 @@
 //! Limits that hold before the TOML parser sees the text.
 //!
-//! The parser is recursive, keeps every prefix of every table header, and
-//! looks dotted keys up one by one; the limits keep all three small.
+//! The parser is recursive, keeps all prefixes of table headers and looks up dotted keys one by one.
 
 use alloc::format;
 

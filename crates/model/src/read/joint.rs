@@ -7,10 +7,9 @@ use num_traits::Zero;
 use toml_span::Value;
 
 use super::table::Table;
-use super::value::{Context, bodies, link_frame, placement};
+use super::value::{Context, bodies, body, placement};
 use crate::number::{Angle, Rational};
-use crate::robot::Placed;
-use crate::robot::{FloatingBase, Joint, JointKind, Limits};
+use crate::robot::{FloatingBase, Joint, JointKind, Limits, Placed};
 
 const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];
 
@@ -27,9 +26,6 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     const KIND: &str = "kind = \"revolute\" or \"prismatic\"";
     const FIRST: &str =
         "the base is the one body that floats: put its [[joint]] table before the others";
-    const MASS: &str = "mass = 4.8, in kg; a link without mass has mass = 0";
-    const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
-    const INERTIA: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
 
     let table = &mut keys;
     let name = table.optional(cx, "name", Context::string);
@@ -44,19 +40,7 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
     let a = number(cx, table, "a");
     let (d, theta) = variable(cx, table, kind);
     let placed = placed(cx, table);
-    let mass = table.required(cx, "mass", MASS, Context::number);
-    // A body without mass has no centre, and no inertia unless the file says so.
-    let is_massless = mass.as_ref().is_some_and(Zero::is_zero);
-    let com = match table.get("com") {
-        None if is_massless => None,
-        _ => table.required(cx, "com", COM, |cx, value| {
-            cx.array(value, COM, Context::number)
-        }),
-    };
-    let inertia = match table.get("inertia") {
-        None if is_massless => None,
-        _ => table.required(cx, "inertia", INERTIA, Context::inertia),
-    };
+    let body = body(cx, table, "link", "4.8", "link frame");
     let parent = table.get("parent");
     let joint = Joint {
         name,
@@ -68,14 +52,15 @@ pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
         a,
         d,
         theta,
-        mass: mass.unwrap_or_default(),
-        com: com.unwrap_or_default(),
-        inertia: inertia.unwrap_or_default(),
+        mass: body.mass,
+        com: body.com,
+        inertia: body.inertia,
         viscous: number(cx, table, "viscous"),
         coulomb: number(cx, table, "coulomb"),
         coulomb_width: number(cx, table, "coulomb_width"),
         armature: number(cx, table, "armature"),
-        frame: link_frame(cx, table, "frame"),
+        // Also one that is its row's: moments are about its origin.
+        frame: placement(cx, table, "frame"),
         limits: limits(cx, table, kind),
     };
     let (mimic, span) = (table.get("mimic"), table.span.clone());
@@ -126,10 +111,8 @@ fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rat
 fn placed(cx: &mut Context, keys: &mut Table) -> Option<Placed> {
     const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
     let (place, axis) = (keys.get("placement"), keys.get("axis"));
-    let mut row_entries = ROW
-        .map(|key| keys.get(key).map(|value| (key, value)))
-        .into_iter()
-        .flatten();
+    let row = ROW.map(|key| keys.get(key).map(|value| (key, value)));
+    let mut row_entries = row.into_iter().flatten();
     if let (None, Some(axis)) = (place, axis)
         && let Some((row, _)) = row_entries.next()
     {
@@ -145,15 +128,14 @@ fn placed(cx: &mut Context, keys: &mut Table) -> Option<Placed> {
         cx.refuse::<()>(value, message, help);
     }
     let placement = placement(cx, keys, "placement").unwrap_or_default();
-    let axis = keys
-        .required(cx, "axis", AXIS, |cx, value| {
-            let axis: [Rational; 3] = cx.array(value, AXIS, Context::number)?;
-            match axis.iter().all(Zero::is_zero) {
-                true => cx.refuse(value, "an axis of length zero has no direction", AXIS),
-                false => Some(axis),
-            }
-        })
-        .unwrap_or_default();
+    let direction = keys.required(cx, "axis", AXIS, |cx, value| {
+        let axis: [Rational; 3] = cx.array(value, AXIS, Context::number)?;
+        match axis.iter().all(Zero::is_zero) {
+            true => cx.refuse(value, "an axis of length zero has no direction", AXIS),
+            false => Some(axis),
+        }
+    });
+    let axis = direction.unwrap_or_default();
     Some(Placed { placement, axis })
 }
 
@@ -168,10 +150,11 @@ fn limits(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> Limits
                 cx.range(value, kind, "position = [lowest, highest], or leave it out")
             })
         });
+        let turns = kind == Some(JointKind::Revolute);
         Some(Limits {
             position,
-            velocity: keys.optional(cx, "velocity", |cx, v| cx.rate(v, kind, "rad/s")),
-            acceleration: keys.optional(cx, "acceleration", |cx, v| cx.rate(v, kind, "rad/s²")),
+            velocity: keys.optional(cx, "velocity", |cx, v| cx.rate(v, turns, "rad/s")),
+            acceleration: keys.optional(cx, "acceleration", |cx, v| cx.rate(v, turns, "rad/s²")),
             torque: keys.optional(cx, "torque", Context::number),
             body: bodies(cx, keys, "body"),
         })

@@ -1,7 +1,6 @@
 //! `mimic` of a joint: which other it follows, and along which line.
 
 use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use num_traits::{One, Signed, Zero};
@@ -28,10 +27,9 @@ pub(super) fn read<'v>(
     joints: &[Joint],
     read: &[joint::Read<'v>],
 ) -> Vec<Option<Mimic<'v>>> {
-    let values = read.iter().map(|read| read.mimic).enumerate();
-    values
-        .map(|(row, value)| one(cx, joints, row, value?))
-        .collect()
+    let rows = read.iter().enumerate();
+    let mimics = rows.map(|(row, read)| one(cx, joints, row, read.mimic?));
+    mimics.collect()
 }
 
 fn one<'v>(
@@ -67,24 +65,19 @@ fn one<'v>(
         return cx.refuse(value, message, "a joint follows another of its own kind");
     }
     if multiplier.is_zero() {
-        let message = "a multiplier of 0: the joint never moves";
-        return cx.refuse(
-            value,
-            message,
-            "leave it out: a joint that never moves is part of its link",
-        );
+        let help = "leave it out: a joint that never moves is part of its link";
+        return cx.refuse(value, "a multiplier of 0: the joint never moves", help);
     }
     if turns && !is_whole(&multiplier) {
         let inverse = multiplier.recip();
-        let (of, other) = match is_whole(&inverse) {
-            true => (
-                "",
-                format!(": let that joint mimic this one, with multiplier = {inverse}"),
+        let help = match is_whole(&inverse) {
+            true => format!(
+                "sines are of whole multiples, up to {most}: let that joint mimic this one, \
+                 with multiplier = {inverse}"
             ),
-            false => (" of an angle", String::new()),
+            false => format!("sines are of whole multiples of an angle, up to {most}"),
         };
         let message = format!("a joint that turns {multiplier} times as far");
-        let help = format!("sines are of whole multiples{of}, up to {most}{other}");
         return cx.refuse(value, message, &help);
     }
     if joint.has_coulomb() {

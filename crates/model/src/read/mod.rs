@@ -32,8 +32,7 @@
 //! rpy = ["pi/2", 0, 0]
 //! ```
 //!
-//! An oddity that is not wrong is a warning, each with a name ([`RobotWarning`]) in its help. The
-//! file silences it by that name.
+//! An oddity that is not wrong is a warning, with the name that silences it ([`RobotWarning`]).
 //!
 //! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's own without a
 //! `base`. A placement is where a frame is in the one before: moved by `xyz` metres, its axes
@@ -42,11 +41,9 @@
 //! whose origins lie on the joints' axes. [`placed`](crate::placed) says which rows they get.
 //! `link_poses` and the parameters of regressors are those of the links' own frames: a joint with a
 //! row may say where that is in the row's, `frame`. Frames by name are in the links' own where
-//! joints are placed, and in the rows' otherwise. A row may turn about y after its twist, `beta`,
-//! where axes are nearly parallel.
+//! joints are placed, and in the rows' otherwise. A row of nearly parallel axes has a `beta`.
 //!
-//! `report` collects and prints diagnostics; `suggest` finds the likely word, `foreign` the likely
-//! intention where the text is no TOML.
+//! `report` collects diagnostics; `foreign` finds the likely intention.
 
 mod base;
 mod file;
@@ -55,10 +52,8 @@ mod guard;
 mod joint;
 mod link;
 mod mimic;
-mod parent;
 mod report;
 mod scene;
-mod suggest;
 mod syntax;
 mod table;
 mod value;
@@ -72,15 +67,13 @@ use crate::scene::Scene;
 pub use crate::diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use crate::robot::RobotWarning;
 pub use guard::MAX_BYTES;
-pub use suggest::closest;
 
 /// A robot file that was read.
 #[derive(Clone, Debug)]
 pub struct Reading {
     /// The robot; [`Robot::validate`] finds no error in it.
     pub robot: Robot,
-    /// The functions that the file is for, which are generated where a request names none; empty
-    /// if the file lists none.
+    /// The functions that the file lists, which are generated where a request names none.
     pub outputs: Vec<Function>,
     /// Its scenes, in the order of the file; [`Scene::validate`] finds nothing.
     pub scenes: Vec<Scene>,
@@ -91,13 +84,10 @@ pub struct Reading {
 /// Reads a robot file.
 ///
 /// # Errors
-/// Everything that is wrong with the file, at once and in its order; only an
-/// error of the TOML syntax hides those after it.
+/// All that is wrong with the file, in its order; only an error of the syntax hides those after it.
 pub fn parse(source: &str) -> Result<Reading, Diagnostics> {
-    let mut cx = value::Context {
-        sink: report::Sink::new(source),
-        unread: Vec::new(),
-    };
+    let (sink, unread) = (report::Sink::new(source), Vec::new());
+    let mut cx = value::Context { sink, unread };
     let read = file::read(source, &mut cx);
     cx.sink.finish(read)
 }

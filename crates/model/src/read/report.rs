@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::{Diagnostics, Reading, RobotWarning};
-use crate::diagnostic::{Diagnostic, Excerpt, Place, Severity};
+use crate::diagnostic::{Diagnostic, Excerpt, Place};
 
 /// More errors than this are counted, not listed.
 const MAX_LISTED: usize = 200;
@@ -17,47 +17,22 @@ pub(super) struct Sink {
     pub(super) source: String,
     line_starts: Vec<usize>,
     diagnostics: Vec<Diagnostic>,
-    allowed: BTreeSet<RobotWarning>,
+    pub(super) allowed: BTreeSet<RobotWarning>,
 }
 
 impl Sink {
     pub(super) fn new(source: &str) -> Self {
-        let newlines = source.bytes().enumerate().filter(|(_, b)| *b == b'\n');
-        let line_starts = core::iter::once(0)
-            .chain(newlines.map(|(i, _)| i + 1))
-            .collect();
+        let later_lines = source.match_indices('\n').map(|(newline, _)| newline + 1);
         Sink {
             source: source.to_string(),
-            line_starts,
+            line_starts: core::iter::once(0).chain(later_lines).collect(),
             diagnostics: Vec::new(),
             allowed: BTreeSet::new(),
         }
     }
 
-    pub(super) fn allow(&mut self, warning: RobotWarning) {
-        self.allowed.insert(warning);
-    }
-
     pub(super) fn error(&mut self, span: Range<usize>, message: String, help: &str) {
         self.place(Diagnostic::error(message).with_help(help), span);
-    }
-
-    pub(super) fn note(&mut self, span: Range<usize>, message: String, help: &str) {
-        self.place(
-            Diagnostic::new(Severity::Note, message).with_help(help),
-            span,
-        );
-    }
-
-    pub(super) fn warning(
-        &mut self,
-        warning: RobotWarning,
-        span: Range<usize>,
-        message: String,
-        help: &str,
-    ) {
-        let diagnostic = Diagnostic::robot_warning(warning, message).with_help(help);
-        self.place(diagnostic, span);
     }
 
     /// Adds a diagnostic about these bytes; the help for a warning says how it is silenced.
@@ -68,29 +43,23 @@ impl Sink {
         }
         let line = self.line(span.start);
         let start = self.line_starts.get(line - 1).copied().unwrap_or_default();
-        let excerpt = Excerpt::new(&self.source, span, line, start);
-        self.diagnostics
-            .push(diagnostic.at(Place::Text(Box::new(excerpt))));
+        let place = Place::Text(Box::new(Excerpt::new(&self.source, span, line, start)));
+        self.diagnostics.push(diagnostic.at(place));
     }
 
     /// Counts from one.
     pub(super) fn line(&self, byte: usize) -> usize {
-        let line = self.line_starts.partition_point(|start| *start <= byte);
-        line.max(1)
+        self.line_starts.partition_point(|start| *start <= byte)
     }
 
     /// Errors come alone: beside them, the rest is only in the way.
-    pub(super) fn finish(mut self, read: Option<Reading>) -> Result<Reading, Diagnostics> {
-        let start =
-            |diagnostic: &Diagnostic| diagnostic.excerpt().map(|excerpt| excerpt.span.start);
-        self.diagnostics.sort_by_key(start);
-        let allowed = self.allowed;
-        let is_allowed =
-            |diagnostic: &Diagnostic| diagnostic.warning.is_some_and(|d| allowed.contains(&d));
-        self.diagnostics
-            .retain(|diagnostic| !is_allowed(diagnostic));
+    pub(super) fn finish(self, read: Option<Reading>) -> Result<Reading, Diagnostics> {
+        let mut diagnostics = self.diagnostics;
+        diagnostics.sort_by_key(|entry| entry.excerpt().map(|excerpt| excerpt.span.start));
+        let is_shown = |name: RobotWarning| !self.allowed.contains(&name);
+        diagnostics.retain(|entry| entry.warning.is_none_or(is_shown));
         let (mut errors, notes): (Vec<_>, Vec<_>) =
-            self.diagnostics.into_iter().partition(Diagnostic::is_error);
+            diagnostics.into_iter().partition(Diagnostic::is_error);
         let more = errors.len().saturating_sub(MAX_LISTED);
         if more > 0 {
             errors.truncate(MAX_LISTED);
@@ -113,12 +82,10 @@ pub(super) fn not_utf8(bytes: &[u8], at: usize) -> Diagnostics {
 }
 
 pub(super) fn quote(text: &str) -> String {
-    let mut shown: String = text
-        .chars()
-        .take(40)
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect();
-    if text.chars().nth(40).is_some() {
+    let shown_letter = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let mut letters = text.chars().map(shown_letter);
+    let mut shown: String = letters.by_ref().take(40).collect();
+    if letters.next().is_some() {
         shown.push('…');
     }
     format!("`{shown}`")

@@ -1,7 +1,7 @@
 //! The `[scene.NAME]` tables.
 
 use alloc::format;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -53,10 +53,7 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
     const JOINTS: &str = "joints = [1, 2, \"elbow\"]: numbers from 1, or names";
     const GRAVITY: &str = "gravity = [0, 0, -9.81], or [0, 0, 0] for none";
     let outputs = keys.optional(cx, "outputs", |cx, value| cx.outputs(value, "a scene"));
-    let (payload, payload_link) = match payload(cx, robot, keys) {
-        Some((payload, link)) => (Some(payload), link),
-        None => (None, None),
-    };
+    let (payload, payload_link) = payload(cx, robot, keys).unzip();
     let (lock_base, lock) = lock(cx, robot, keys).unwrap_or_default();
     Scene {
         name: name.to_string(),
@@ -76,7 +73,7 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
         velocity_zero: zero(cx, keys, "velocity"),
         acceleration_zero: zero(cx, keys, "acceleration"),
         payload,
-        payload_link,
+        payload_link: payload_link.flatten(),
         bounds: bounds(cx, robot, keys).unwrap_or_default(),
         tolerance: tolerance(cx, keys),
         scalar: keys.optional(cx, "scalar", |cx, value| {
@@ -90,35 +87,22 @@ fn joint(cx: &mut Context, robot: &Robot, text: &str, span: Range<usize>) -> Opt
     if row.is_some() {
         return row;
     }
-    let name = |follower: &&Follower| follower.joint.name.as_deref() == Some(text);
-    let (message, help) = match robot.followers.iter().find(name) {
-        Some(follower) => {
-            let leader = robot.joint_label(follower.leader);
-            (
-                format!("joint {} follows another", quote(text)),
-                format!("name {leader}, by which it moves"),
-            )
-        }
-        None => (
-            format!("there is no joint {}", quote(text)),
-            link::meant(&robot.joints, text),
-        ),
-    };
+    let is_named = |follower: &&Follower| follower.joint.name.as_deref() == Some(text);
+    let (mut message, mut help) = (
+        format!("there is no joint {}", quote(text)),
+        link::meant(&robot.joints, text),
+    );
+    if let Some(follower) = robot.followers.iter().find(is_named) {
+        let leader = robot.joint_label(follower.leader);
+        message = format!("joint {} follows another", quote(text));
+        help = format!("name {leader}, by which it moves");
+    }
     cx.sink.error(span, message, &help);
     None
 }
 
 fn kind(robot: &Robot, joint: usize) -> Option<JointKind> {
-    let joint: Option<&Joint> = robot.joints.get(joint);
-    joint.map(|joint| joint.kind)
-}
-
-fn kind_of_rate(robot: &Robot, coordinate: usize) -> Option<JointKind> {
-    match robot.joint_of(coordinate) {
-        Some(joint) => kind(robot, joint),
-        None if robot.turns(coordinate) => Some(JointKind::Revolute),
-        None => Some(JointKind::Prismatic),
-    }
+    Some(robot.joints.get(joint)?.kind)
 }
 
 /// Returns true if the base is locked, and the joints that are, with their positions.
@@ -129,35 +113,34 @@ fn lock(
 ) -> Option<(bool, Vec<(usize, Position)>)> {
     let place = keys.place_of("lock");
     keys.optional(cx, "lock", |cx, value| {
-        let named = value
-            .as_str()
-            .and_then(|text| link::find(&robot.joints, text)).unwrap_or(robot.joints.len().saturating_sub(1));
+        let text = value.as_str();
+        let named = text.and_then(|text| link::find(&robot.joints, text));
+        let row = named.unwrap_or(robot.joints.len().saturating_sub(1));
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let name = robot.joints.get(named).and_then(|joint| joint.name.clone());
-        let name = name.filter(|name| name.chars().all(plain)).unwrap_or_else(|| (named + 1).to_string());
+        let is_plain = |name: &&String| name.chars().all(plain);
+        let joint_name = robot.joints.get(row).and_then(|joint| joint.name.as_ref());
+        let name = joint_name.filter(is_plain).cloned();
         let help = format!(
-            "lock = {{ {name} = 0 }}: each joint, by its name or number, with its position"
+            "lock = {{ {} = 0 }}: each joint, by its name or number, with its position",
+            name.unwrap_or_else(|| (row + 1).to_string())
         );
         let table = Table::open(cx, value, place, "lock", &help)?;
         let (mut locks, mut lock_base) = (Vec::new(), false);
         for (key, value) in table.entries() {
             if robot.floating.is_some() && link::is_named_base(robot, &key.name) {
                 let help = format!(
-                    "lock = {{ {} = \"level\" }} holds the base; if it is tilted, give the scene its \
-                     `gravity` in the base's axes",
+                    "lock = {{ {} = \"level\" }} holds the base; if it is tilted, give the scene \
+                     its `gravity` in the base's axes",
                     key.name
                 );
                 lock_base |= cx.word(value, &[(Scene::LEVEL, ())], &help).is_some();
                 continue;
             }
             let joint = joint(cx, robot, &key.name, bytes_of(key.span));
-            locks.push(joint.and_then(|joint| {
-                let at = cx.position(value, kind(robot, joint))?;
-                Some((joint, at))
-            }));
+            let at = joint.and_then(|joint| cx.position(value, kind(robot, joint)));
+            locks.push(joint.zip(at));
         }
-        let locks: Option<Vec<(usize, Position)>> = locks.into_iter().collect();
-        Some((lock_base, locks?))
+        Some((lock_base, locks.into_iter().collect::<Option<_>>()?))
     })
 }
 
@@ -202,10 +185,10 @@ fn bounds(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<MotionBox
                 cx.range(value, kind(robot, joint), "[lowest, highest]")
             }),
             velocity: each(cx, keys, "velocity", |cx, coordinate, value| {
-                cx.rate(value, kind_of_rate(robot, coordinate), "rad/s")
+                cx.rate(value, robot.turns(coordinate), "rad/s")
             }),
             acceleration: each(cx, keys, "acceleration", |cx, coordinate, value| {
-                cx.rate(value, kind_of_rate(robot, coordinate), "rad/s²")
+                cx.rate(value, robot.turns(coordinate), "rad/s²")
             }),
             payload: bodies(cx, keys, "payload"),
         })

@@ -35,10 +35,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
             "angles and fractions are written in quotes: \"3*pi/4\", \"1/3\"".to_string(),
         ),
         ErrorKind::InvalidNumber if zeros.is_some() => (
-            format!(
-                "{} begins with a zero, which TOML does not allow",
-                quote(whole)
-            ),
+            quote(whole) + " begins with a zero, which TOML does not allow",
             format!("write {}", zeros.unwrap_or_default()),
         ),
         ErrorKind::Unexpected(c) if foreign::character(*c).is_some() => {
@@ -63,10 +60,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
         ),
         ErrorKind::DuplicateTable { name, first } => (
             format!("the table {} is defined twice", quote(name)),
-            format!(
-                "{}; several joints are written [[joint]]",
-                earlier(first.start)
-            ),
+            earlier(first.start) + "; several joints are written [[joint]]",
         ),
         ErrorKind::RedefineAsArray => (
             "a table is defined both as [table] and as [[table]]".to_string(),
@@ -89,10 +83,9 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
             "close the brackets and write a value after every `=`".to_string(),
         ),
         ErrorKind::Wanted { expected, found } => {
-            let found = if *found == "eof" {
-                "the end of the file"
-            } else {
-                found
+            let found = match *found {
+                "eof" => "the end of the file",
+                found => found,
             };
             let meant = foreign::decimal_comma_at(source, start);
             let help = meant.map(|meant| format!("decimals have a point: {meant}"));

@@ -9,8 +9,8 @@ use toml_span::Value;
 use toml_span::value::{Key, Table as Entries};
 
 use super::report::quote;
-use super::suggest;
 use super::value::{Context, bytes_of, first_line};
+use crate::diagnostic::suggest;
 
 pub(super) struct Table<'v> {
     entries: &'v Entries<'v>,
@@ -113,10 +113,8 @@ impl<'v> Table<'v> {
                 continue;
             }
             // A key that is there already is not what a second one means.
-            let known = self.known.iter().copied();
-            let free: Vec<&str> = known
-                .filter(|key| !self.entries.contains_key(*key))
-                .collect();
+            let is_free = |key: &&str| !self.entries.contains_key(*key);
+            let free: Vec<&str> = self.known.iter().copied().filter(is_free).collect();
             let help = suggest::for_key(&key.name, &free)
                 .unwrap_or_else(|| format!("{} has: {}", self.name, self.known.join(", ")));
             let message = format!("unknown key {}", quote(&key.name));
@@ -133,13 +131,12 @@ fn in_order<'v>(entries: &'v Entries<'v>) -> Vec<(&'v Key<'v>, &'v Value<'v>)> {
 
 /// Returns the bytes of the value at a place in `value`, which has these `bytes`: those of the
 /// table around it, or of the key that stands for it, where the file leaves it out.
-pub(super) fn locate(
-    value: &Value,
-    bytes: Range<usize>,
+pub(super) fn locate<'v>(
+    mut value: &'v Value<'v>,
+    mut bytes: Range<usize>,
     source: &str,
     place: &str,
 ) -> Range<usize> {
-    let (mut value, mut bytes) = (value, bytes);
     for step in place.split('/') {
         let instead = match step {
             "coulomb_width" => "coulomb",

@@ -1,22 +1,24 @@
 //! Values of the file: numbers, angles, words, vectors, tensors, placements.
 //!
-//! Every reader returns `None` after reporting an error, so that its caller goes on with the
-//! rest of the file.
+//! Every reader returns `None` after it reported an error, and its caller goes on with the file.
 
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use num_traits::Zero;
 use toml_span::value::ValueInner;
 use toml_span::{Span, Value};
 
 use super::report::{Sink, quote};
 use super::table::Table;
-use super::{RobotWarning, foreign, suggest};
+use super::{Diagnostic, RobotWarning, Severity, foreign};
+use crate::diagnostic::closest;
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, SnappedAngle};
 use crate::outputs::Function;
+use crate::placed::Body;
 use crate::robot::{BodyRange, Inertia, JointKind, Placement, Position, values};
 
 pub(super) struct Context {
@@ -40,20 +42,38 @@ pub(super) fn placement(
     keys: &mut Table,
     key: &'static str,
 ) -> Option<Placement> {
-    link_frame(cx, keys, key).and_then(Placement::unless_identity)
-}
-
-/// Reads the frame of a link, also one that is its row's: moments are about its origin.
-pub(super) fn link_frame(
-    cx: &mut Context,
-    keys: &mut Table,
-    key: &'static str,
-) -> Option<Placement> {
     let help = format!("{key} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
     keys.table(cx, key, &help, Context::placement)
 }
 
-/// Reads the bodies that there may be of a payload or a link.
+/// Reads the body of a link or a base: one without mass has no centre, and no inertia unless the
+/// file says so. Zeros stand in for values that cannot be read, which are reported.
+pub(super) fn body(cx: &mut Context, keys: &mut Table, of: &str, mass: &str, frame: &str) -> Body {
+    let others = format!("only a {of} with mass = 0 may leave it out");
+    let mass_help = format!("mass = {mass}, in kg; a {of} without mass has mass = 0");
+    let com_help = format!("com = [x, y, z]: the centre of mass in the {frame}, in m; {others}");
+    let inertia_help = format!(
+        "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; {others}"
+    );
+    let mass = keys.required(cx, "mass", &mass_help, Context::number);
+    let is_massless = mass.as_ref().is_some_and(Zero::is_zero);
+    let com = match keys.get("com") {
+        None if is_massless => None,
+        _ => keys.required(cx, "com", &com_help, |cx, value| {
+            cx.array(value, &com_help, Context::number)
+        }),
+    };
+    let inertia = match keys.get("inertia") {
+        None if is_massless => None,
+        _ => keys.required(cx, "inertia", &inertia_help, Context::inertia),
+    };
+    Body {
+        mass: mass.unwrap_or_default(),
+        com: com.unwrap_or_default(),
+        inertia: inertia.unwrap_or_default(),
+    }
+}
+
 pub(super) fn bodies(cx: &mut Context, keys: &mut Table, key: &'static str) -> Option<BodyRange> {
     let help = format!("{key} = {{ mass = [0, 2], radius = 0.1 }}: kg, and m around its frame");
     keys.table(cx, key, &help, |cx, keys| {
@@ -61,10 +81,8 @@ pub(super) fn bodies(cx: &mut Context, keys: &mut Table, key: &'static str) -> O
             cx.array(value, &help, Context::number)
         });
         let radius = keys.required(cx, "radius", &help, Context::number);
-        Some(BodyRange {
-            mass: mass?,
-            radius: radius?,
-        })
+        let (mass, radius) = (mass?, radius?);
+        Some(BodyRange { mass, radius })
     })
 }
 
@@ -107,29 +125,20 @@ impl Context {
     }
 
     pub(super) fn number(&mut self, value: &Value) -> Option<Rational> {
-        self.number_or(
-            value,
-            "write the number alone, in SI units, or a fraction such as \"1/3\"",
-        )
+        let help = "write the number alone, in SI units, or a fraction such as \"1/3\"";
+        self.number_or(value, help)
     }
 
     pub(super) fn length(&mut self, value: &Value) -> Option<Rational> {
-        self.number_or(
-            value,
-            "write metres as a number alone, or a fraction such as \"1/3\"",
-        )
+        let help = "write metres as a number alone, or a fraction such as \"1/3\"";
+        self.number_or(value, help)
     }
 
-    pub(super) fn rate(
-        &mut self,
-        value: &Value,
-        kind: Option<JointKind>,
-        unit: &str,
-    ) -> Option<Rational> {
+    pub(super) fn rate(&mut self, value: &Value, turns: bool, unit: &str) -> Option<Rational> {
         let text = value.as_str().unwrap_or_default();
         let a_second = text.trim().trim_end_matches("/s²").trim_end_matches("/s");
         match Angle::parse(a_second) {
-            Ok(angle) if kind == Some(JointKind::Revolute) && parse_decimal(a_second).is_err() => {
+            Ok(angle) if turns && parse_decimal(a_second).is_err() => {
                 let radians = angle.to_f64();
                 let help = format!("in {unit}, as a number: write {radians:.4}");
                 self.wanted(value, "a number", &help)
@@ -139,10 +148,8 @@ impl Context {
     }
 
     pub(super) fn part(&mut self, value: &Value) -> Option<Rational> {
-        self.number_or(
-            value,
-            "write the part as a number, 0.01 for 1%, or a fraction such as \"1/100\"",
-        )
+        let help = "write the part as a number, 0.01 for 1%, or a fraction such as \"1/100\"";
+        self.number_or(value, help)
     }
 
     fn number_or(&mut self, value: &Value, help: &str) -> Option<Rational> {
@@ -151,11 +158,8 @@ impl Context {
             ValueInner::String(text) if text.contains('/') && !text.contains("pi") => {
                 parse_fraction(text)
             }
-            other => {
-                let text = match other {
-                    ValueInner::String(text) => text,
-                    _ => "",
-                };
+            _ => {
+                let text = value.as_str().unwrap_or_default();
                 let foreign = foreign::in_text(text);
                 let help = match foreign.as_deref() {
                     _ if parse_decimal(text.trim()).is_ok() => "write it without quotes",
@@ -188,9 +192,9 @@ impl Context {
             let text = self.literal(value);
             let message = format!("{text} is {distance:.1e} from {multiple}; it stays as written");
             let help = format!("write {} if you mean it", values::angle(multiple));
-            let warning = RobotWarning::NearRightAngle;
-            self.sink
-                .warning(warning, bytes_of(value.span), message, &help);
+            let near = RobotWarning::NearRightAngle;
+            let warning = Diagnostic::robot_warning(near, message).with_help(help);
+            self.sink.place(warning, bytes_of(value.span));
         }
         Some(snapped.angle())
     }
@@ -203,11 +207,8 @@ impl Context {
             ValueInner::String(text) if Angle::parse(text).is_ok() => {
                 SnappedAngle::near(Angle::parse(text).unwrap_or_default())
             }
-            other => {
-                let text = match other {
-                    ValueInner::String(text) => text.trim(),
-                    _ => "",
-                };
+            _ => {
+                let text = value.as_str().unwrap_or_default().trim();
                 let help = match (parse_decimal(text), foreign::in_text(text)) {
                     (Ok(_), _) => {
                         format!("of radians write {text} without quotes, of degrees \"{text}deg\"")
@@ -221,7 +222,8 @@ impl Context {
         if let SnappedAngle::Taken(angle) = &snapped {
             let message = format!("{} is read as {angle}", self.literal(value));
             let help = format!("write {} to say so", values::angle(angle));
-            self.sink.note(bytes_of(value.span), message, &help);
+            let note = Diagnostic::new(Severity::Note, message).with_help(help);
+            self.sink.place(note, bytes_of(value.span));
         }
         Some(snapped)
     }
@@ -257,10 +259,8 @@ impl Context {
             None => Some(Placement::default().rpy),
             Some(value) => self.array(value, RPY, Self::angle),
         };
-        Some(Placement {
-            xyz: xyz?,
-            rpy: rpy?,
-        })
+        let (xyz, rpy) = (xyz?, rpy?);
+        Some(Placement { xyz, rpy })
     }
 
     pub(super) fn string(&mut self, value: &Value) -> Option<String> {
@@ -281,7 +281,7 @@ impl Context {
             return Some(*meaning);
         }
         let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
-        let help = match text.map(|text| suggest::closest(text, &names)) {
+        let help = match text.map(|text| closest(text, &names)) {
             Some(Some(meant)) => format!("did you mean \"{meant}\"?"),
             Some(None) if text == Some("fixed") => {
                 "a joint that does not move is part of the link before it".to_string()
@@ -365,9 +365,9 @@ impl Context {
         if items.len() == length {
             return Some(items);
         }
-        let comma = foreign::decimal_comma_in(&self.literal(value))
-            .map(|meant| format!("decimals have a point: {meant}"));
-        self.wanted(value, expected, comma.as_deref().unwrap_or(help))
+        let comma = foreign::decimal_comma_in(&self.literal(value));
+        let decimals = comma.map(|meant| format!("decimals have a point: {meant}"));
+        self.wanted(value, expected, decimals.as_deref().unwrap_or(help))
     }
 
     pub(super) fn inertia(&mut self, value: &Value) -> Option<Inertia<Rational>> {

@@ -1,8 +1,7 @@
 //! Decides exactly if a body can have an inertia tensor.
 //!
-//! For a body of density ρ, ½ tr(I)·1 − I = ∫ρ x xᵀ, which is positive
-//! semidefinite; conversely every such matrix is that of some body. In
-//! principal axes this is the triangle inequality between the moments.
+//! For a body of density ρ, ½ tr(I)·1 − I = ∫ρ x xᵀ, which is positive semidefinite, and every such
+//! matrix is that of some body. In principal axes this is the moments' triangle inequality.
 
 use num_traits::{Signed, Zero};
 
@@ -57,11 +56,9 @@ fn is_semidefinite(m: &[[Rational; 3]; 3]) -> bool {
     let minor = |i: usize, k: usize| &m[i][i] * &m[k][k] - &m[i][k] * &m[k][i];
     let det = &m[0][0] * minor(1, 2) - &m[0][1] * (&m[1][0] * &m[2][2] - &m[1][2] * &m[2][0])
         + &m[0][2] * (&m[1][0] * &m[2][1] - &m[1][1] * &m[2][0]);
-    (0..3).all(|i| !m[i][i].is_negative())
-        && [(0, 1), (0, 2), (1, 2)]
-            .iter()
-            .all(|&(i, k)| !minor(i, k).is_negative())
-        && !det.is_negative()
+    let diagonal = (0..3).map(|i| m[i][i].clone());
+    let minors = [minor(0, 1), minor(0, 2), minor(1, 2), det];
+    diagonal.chain(minors).all(|minor| !minor.is_negative())
 }
 
 #[cfg(test)]

@@ -69,14 +69,11 @@ impl FloatingBase {
 impl Robot {
     /// Returns how many coordinates are those of a base that floats: six, or none.
     pub fn base_coordinates(&self) -> usize {
-        match self.floating {
-            Some(_) => FloatingBase::COORDINATES,
-            None => 0,
-        }
+        let base = self.floating.as_ref();
+        base.map_or(0, |_| FloatingBase::COORDINATES)
     }
 
-    /// Returns the number of coordinates of its velocity: those of the base, if it floats, then
-    /// one a joint.
+    /// Returns the number of coordinates of its velocity: those of a floating base and of joints.
     pub fn coordinates(&self) -> usize {
         self.base_coordinates() + self.joints.len()
     }
@@ -86,8 +83,7 @@ impl Robot {
         coordinate.checked_sub(self.base_coordinates())
     }
 
-    /// Returns the name of a coordinate in messages, from its zero-based index: `the base's ω_y`, or
-    /// that of a [joint](Robot::joint_label).
+    /// Returns a coordinate's name in messages: `the base's ω_y`, or a [joint's](Robot::joint_label).
     pub fn coordinate_label(&self, coordinate: usize) -> String {
         const OF_BASE: [&str; 6] = ["v_x", "v_y", "v_z", "ω_x", "ω_y", "ω_z"];
         match self.joint_of(coordinate) {
@@ -112,8 +108,7 @@ impl Robot {
         }
     }
 
-    /// Returns true if its joints are placed, and it has no hand: its links branch, or its base
-    /// floats.
+    /// True if its joints are placed, and it has no hand: its links branch, or its base floats.
     pub fn is_tree(&self) -> bool {
         self.floating.is_some() || self.branches()
     }
@@ -139,9 +134,7 @@ impl Findings {
                 self.not_negative(&of_base(&format!("limits/{}", rate.key())), limit);
             }
         }
-        if let Some((message, help)) = base.limits.body.as_ref().and_then(BodyRange::error) {
-            self.error(of_base("limits/body"), message, help);
-        }
+        self.bodies(of_base("limits/body"), &base.limits.body);
         let placements = robot.placements().into_iter();
         for (key, _) in placements.filter(|(_, placement)| placement.is_some()) {
             let message = format!("`{key}` of a robot whose base floats");

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::{Joint, JointKind, Position, Robot};
-use crate::number::{Angle, Rational, Rounded};
+use crate::number::Angle::{PiTimes, Radians};
+use crate::number::{Rational, Rounded};
 
 /// A row of the table whose joint follows another: q = multiplier · q_leader + offset.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,8 +24,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// The largest multiplier of a joint that turns: sines of multiples of an angle are
-    /// polynomials of so high a degree.
+    /// The largest multiplier of a joint that turns: the degree of its sine in the leader's pair.
     pub const MAX_TURNS: i32 = 16;
 
     /// Returns the multiplier of a joint that turns.
@@ -44,7 +44,10 @@ impl Follower {
             let [low, high] = range;
             let narrowed = match leader.limits.position.take() {
                 None => [low, high],
-                Some([lowest, highest]) => [lowest.max_of(low), highest.min_of(high)],
+                Some([least, most]) => [
+                    if least.is_below(&low) { low } else { least },
+                    if high.is_below(&most) { high } else { most },
+                ],
             };
             let is_empty = !narrowed[0].is_below(&narrowed[1]);
             leader.limits.position = Some(narrowed);
@@ -78,8 +81,8 @@ impl Follower {
 }
 
 fn nearest(radians: Rational) -> Position {
-    let nearest = Rational::from_float(Angle::Radians(radians.clone()).to_f64());
-    Position::Angle(Angle::Radians(nearest.unwrap_or(radians)).canonical())
+    let nearest = Rational::from_float(Radians(radians.clone()).to_f64());
+    Position::Angle(Radians(nearest.unwrap_or(radians)).canonical())
 }
 
 impl Position {
@@ -95,13 +98,10 @@ impl Position {
     #[must_use]
     pub fn scaled(&self, by: &Rational) -> Position {
         match self {
-            Position::Angle(Angle::PiTimes(x)) => Position::Angle(Angle::PiTimes(x * by)),
-            Position::Angle(Angle::Radians(x)) => Position::Angle(Angle::Radians(x * by)),
-            Position::Angle(angle) if by.abs().is_one() => Position::Angle(if by.is_negative() {
-                angle.negate()
-            } else {
-                angle.clone()
-            }),
+            Position::Angle(PiTimes(x)) => Position::Angle(PiTimes(x * by)),
+            Position::Angle(Radians(x)) => Position::Angle(Radians(x * by)),
+            Position::Angle(angle) if by.is_one() => Position::Angle(angle.clone()),
+            Position::Angle(angle) if (-by).is_one() => Position::Angle(angle.negate()),
             Position::Angle(angle) => nearest(angle.radians() * by),
             Position::Length(x) => Position::Length(x * by),
         }
@@ -113,12 +113,8 @@ impl Position {
         match (self, other) {
             (Turn(angle), _) if angle.is_zero() => Some(other.clone()),
             (_, Turn(other)) if other.is_zero() => Some(self.clone()),
-            (Turn(Angle::PiTimes(a)), Turn(Angle::PiTimes(b))) => {
-                Some(Turn(Angle::PiTimes(a + b).canonical()))
-            }
-            (Turn(Angle::Radians(a)), Turn(Angle::Radians(b))) => {
-                Some(Turn(Angle::Radians(a + b).canonical()))
-            }
+            (Turn(PiTimes(a)), Turn(PiTimes(b))) => Some(Turn(PiTimes(a + b).canonical())),
+            (Turn(Radians(a)), Turn(Radians(b))) => Some(Turn(Radians(a + b).canonical())),
             (Length(a), Length(b)) => Some(Length(a + b)),
             _ => None,
         }
@@ -130,19 +126,10 @@ impl Position {
             Position::Length(length) => length.clone(),
         }
     }
-
-    fn max_of(self, other: Position) -> Position {
-        if self.is_below(&other) { other } else { self }
-    }
-
-    fn min_of(self, other: Position) -> Position {
-        if other.is_below(&self) { other } else { self }
-    }
 }
 
 impl Robot {
-    /// Returns the rows of the table from the base to the hand: the joints, and between
-    /// them those that follow.
+    /// Returns the rows of the table from the base to the hand: the joints, followers between them.
     pub fn rows(&self) -> Vec<&Joint> {
         let mut rows: Vec<&Joint> = self.joints.iter().collect();
         for follower in &self.followers {
@@ -151,8 +138,7 @@ impl Robot {
         rows
     }
 
-    /// True if the followers are in the order of their rows, each after a joint of its kind and in
-    /// a way that equations have.
+    /// True if followers are in the order of rows, each of a joint of its kind, as equations have it.
     pub(super) fn follow(&self) -> bool {
         let ascends = self.followers.windows(2).all(|two| two[0].row < two[1].row);
         let rows = self.joints.len() + self.followers.len();
@@ -183,10 +169,8 @@ impl Robot {
 
     /// Returns the row of a joint, both zero-based.
     pub fn row_of(&self, joint: usize) -> usize {
-        let followers = self.followers.iter();
-        followers.fold(joint, |row, follower| {
-            row + usize::from(follower.row <= row)
-        })
+        let past = |row, follower: &Follower| row + usize::from(follower.row <= row);
+        self.followers.iter().fold(joint, past)
     }
 
     /// Returns the joint by whose motion a row moves, both zero-based.
@@ -200,8 +184,7 @@ impl Robot {
         }
     }
 
-    /// Takes rows, given in their order, for followers. Each names its leader by its row,
-    /// which moves by itself.
+    /// Takes rows, in their order, for followers. Each names its leader by a row that is none.
     pub fn with_followers(mut self, mut followers: Vec<Follower>) -> Robot {
         for follower in followers.iter_mut().rev() {
             follower.joint = self.joints.remove(follower.row);

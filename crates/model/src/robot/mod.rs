@@ -1,5 +1,4 @@
-//! A robot, fixed at build time, with exact parameters: a serial arm, or a tree of links, whose base
-//! may float.
+//! A robot with exact parameters: a serial arm, or a tree of links, whose base may float.
 //!
 //! One [`Joint`] per row of the DH table, or per joint that is placed where links branch;
 //! everything is SI, angles are exact ([`Angle`]), all other numbers are exact rationals.
@@ -36,9 +35,9 @@ use num_traits::{Signed, Zero};
 
 use crate::number::{Angle, Rational};
 
+pub use crate::diagnostic::RobotWarning;
 pub use body::Defect;
 pub(crate) use findings::Findings;
-pub use findings::RobotWarning;
 pub use floating::{BaseLimits, FloatingBase};
 pub use follower::Follower;
 pub(crate) use tree::limb_starts;
@@ -114,17 +113,15 @@ pub struct Robot {
     pub name: String,
     /// DH convention of every row.
     pub convention: Convention,
-    /// Acceleration of gravity in base axes, m/s², e.g. (0, 0, −9.81).
-    ///
-    /// Of a base that floats it is in the world, and functions take it in the base's axes.
+    /// Acceleration of gravity in base axes, m/s², e.g. (0, 0, −9.81); of a base that floats in the
+    /// world's, and functions take it in the base's.
     ///
     /// Base axes are those that [`Robot::base`] places frame 0 in, here and in
     /// every pose, Jacobian and wrench; without it they are frame 0's own.
     pub gravity: [Rational; 3],
     /// Frame 0 of the DH table in base axes, unless they are the same.
     pub base: Option<Placement>,
-    /// The hand in the last frame, unless it is that frame: what forward
-    /// kinematics and Jacobians are of.
+    /// The hand in the last frame, unless it is that: what poses and Jacobians are of.
     pub tool: Option<Placement>,
     /// The frame that payloads are given in, those of scenes and those at run time, in the last
     /// frame, unless it is that frame. Of an arm by placements it is the last link's own.
@@ -211,8 +208,7 @@ impl Robot {
         })
     }
 
-    /// Returns the name of a joint in messages, from its zero-based index:
-    /// `joint 2`, or `joint 2 (elbow)` where it has a name.
+    /// Returns a joint's name in messages, from its zero-based index: `joint 2`, `joint 2 (elbow)`.
     pub fn joint_label(&self, index: usize) -> String {
         let name = self.joints.get(index).and_then(|joint| joint.name.as_ref());
         match name {
@@ -235,7 +231,7 @@ impl BodyRange {
     const MOST: i64 = 1_000_000_000;
 
     /// Returns an error about it, and help, if it is not a range.
-    pub(crate) fn error(&self) -> Option<(&'static str, &'static str)> {
+    fn error(&self) -> Option<(&'static str, &'static str)> {
         let [low, high] = &self.mass;
         if low.is_negative() || low > high {
             let help = "write mass = [lowest, highest], kg, neither below 0";
@@ -265,18 +261,14 @@ pub struct Joint {
     pub place: Option<Placed>,
     /// Twist α_i.
     pub alpha: Angle,
-    /// A turn β_i about y after the twist, A_i Ry(β_i); of standard DH only.
-    ///
-    /// Where the next axis is *nearly* parallel, the common normal is far away or nowhere; with
-    /// this angle (Hayati's) the frame stays near. Zero for every other joint.
+    /// A turn β_i about y after the twist, A_i Ry(β_i), of standard DH: where the next axis is
+    /// *nearly* parallel, and the common normal far away, the frame stays near by it (Hayati's).
     pub beta: Angle,
     /// Length a_i, m.
     pub a: Rational,
-    /// Constant part of d_i, m: all of it for a revolute joint, the offset
-    /// added to q_i for a prismatic one.
+    /// Constant part of d_i, m: all of it for a revolute joint, for a prismatic one the offset.
     pub d: Rational,
-    /// Constant part of θ_i: the offset added to q_i for a revolute joint,
-    /// all of it for a prismatic one.
+    /// Constant part of θ_i: the offset added to q_i of a revolute joint, all of a prismatic one's.
     pub theta: Angle,
     /// Mass of the link, kg.
     pub mass: Rational,
@@ -288,13 +280,11 @@ pub struct Joint {
     pub viscous: Rational,
     /// Coulomb friction F_i, N·m or N.
     pub coulomb: Rational,
-    /// The speed w_i over which its sign is smoothed, rad/s or m/s: more than zero
-    /// where a joint has Coulomb friction.
+    /// The speed w_i over which its sign is smoothed, rad/s or m/s; above zero where F_i is.
     pub coulomb_width: Rational,
     /// Rotor inertia felt at the joint, added to D_ii, kg·m² or kg.
     pub armature: Rational,
-    /// The link's own frame in that of its row, unless it is that: what poses of links
-    /// are of. Centre of mass and inertia are in the row's.
+    /// The link's own frame in its row's, if another: poses are its; com and inertia are the row's.
     pub frame: Option<Placement>,
     /// Limits of motion and load, each optional.
     pub limits: Limits,

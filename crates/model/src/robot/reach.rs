@@ -16,7 +16,6 @@ const MAX_GYRATION: i64 = 3;
 
 /// In metres, without the base; zero of an arm without lengths.
 pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
-    let largest = |xyz: &[Rational; 3]| xyz.iter().map(Signed::abs).sum::<Rational>();
     let travel = |joint: &Joint| {
         let ends = joint.limits.position.iter().flatten();
         let lengths = ends.filter_map(|end| match end {
@@ -29,21 +28,14 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     let mut distances: Vec<Rational> = Vec::with_capacity(rows.len());
     for (row, joint) in rows.iter().enumerate() {
         let placement = joint.place.as_ref().map(|place| &place.placement);
-        let step = placement
-            .or(placed.get(row))
-            .map(|placement| largest(&placement.xyz));
+        let step = placement.or(placed.get(row)).map(Placement::size);
         let link_length = joint.a.abs() + joint.d.abs() + travel(joint) + step.unwrap_or_default();
-        let before = joint
-            .carrier(row)
-            .and_then(|carrier| distances.get(carrier));
+        let before = joint.carrier(row).and_then(|link| distances.get(link));
         distances.push(before.cloned().unwrap_or_default() + link_length);
     }
-    let tool: Rational = robot
-        .tool
-        .iter()
-        .map(|placement| largest(&placement.xyz))
-        .sum();
-    let bodies = rows.iter().map(|joint| largest(&joint.com));
+    let tool: Rational = robot.tool.iter().map(Placement::size).sum();
+    let size = |xyz: &[Rational; 3]| xyz.iter().map(Signed::abs).sum::<Rational>();
+    let bodies = rows.iter().map(|joint| size(&joint.com));
     let furthest = distances.into_iter().max().unwrap_or_default();
     furthest + tool + bodies.max().unwrap_or_default()
 }
@@ -54,35 +46,27 @@ pub(crate) fn large_inertia(
     mass: &Rational,
     reach: &Rational,
 ) -> Option<(String, String)> {
-    let moments = [&inertia.xx, &inertia.yy, &inertia.zz];
-    let largest = moments
-        .into_iter()
-        .max()
-        .filter(|most| most.is_positive())?;
+    let largest = (&inertia.xx).max(&inertia.yy).max(&inertia.zz);
     let most = match reach.is_zero() {
         true => whole(MAX_GYRATION),
         false => whole(MAX_GYRATION) * reach,
     };
-    if !mass.is_positive() || *largest <= &most * &most * mass {
+    if !largest.is_positive() || !mass.is_positive() || *largest <= &most * &most * mass {
         return None;
     }
     let away = libm::sqrt(f64::nearest_rational(&(largest / mass)));
+    let metres = f64::nearest_rational(reach);
     let arm = match reach.is_zero() {
         true => String::new(),
-        false => {
-            let reach = f64::nearest_rational(reach);
-            format!(", and the arm reaches {reach:.3} m")
-        }
+        false => format!(", and the arm reaches {metres:.3} m"),
     };
-    let mass = shown(mass);
+    let (mass, moment) = (shown(mass), shown(largest));
     let less = shown(&(largest / whole(1_000_000)));
-    let largest = shown(largest);
-    Some((
-        format!(
-            "a mass of {mass} kg with a moment of {largest} kg·m² is {away:.3} m from its axis{arm}"
-        ),
-        format!(
-            "inertias are in kg·m²: of kg·mm², write {less} for {largest}; it is taken as it stands"
-        ),
-    ))
+    let message = format!(
+        "a mass of {mass} kg with a moment of {moment} kg·m² is {away:.3} m from its axis{arm}"
+    );
+    let help = format!(
+        "inertias are in kg·m²: of kg·mm², write {less} for {moment}; it is taken as it stands"
+    );
+    Some((message, help))
 }

@@ -21,8 +21,7 @@ pub enum Parent {
 /// The placement of a joint's link, and the axis that it moves about or along.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed {
-    /// The link's frame at q = 0, in that of the link before; of the first
-    /// link, in the frame that the robot's base places.
+    /// The link's frame at q = 0, in that of the link before, or in the frame that the base places.
     pub placement: Placement,
     /// The direction of the joint's axis, which passes through the origin of
     /// the link's frame, in the axes of that frame. Its length does not matter.
@@ -33,8 +32,7 @@ impl Parent {
     /// The word by which robot files name the base.
     pub const BASE: &'static str = "base";
 
-    /// Returns the row that carries a row of this parent: the one before, if it has none; `None` for
-    /// the base.
+    /// Returns the row that carries one of this parent: without, the one before; `None`: the base.
     pub fn carrier(parent: Option<Parent>, row: usize) -> Option<usize> {
         match parent {
             None => row.checked_sub(1),
@@ -45,25 +43,20 @@ impl Parent {
 }
 
 impl Robot {
-    /// Returns the row whose link carries that of a row, both zero-based; `None` for one that the
-    /// base carries.
+    /// Returns the row whose link carries that of a row, both zero-based; `None` for the base.
     pub fn carrier(&self, row: usize) -> Option<usize> {
         let rows = self.rows();
         rows.get(row).and_then(|joint| joint.carrier(row))
     }
 
-    /// Returns the most coordinates from the world to a tip: those of a base that floats, then a row for
-    /// each link on the way.
+    /// Returns the most coordinates from the world to a tip: a floating base's, and a row a link.
     pub fn depth(&self) -> usize {
+        let base = self.base_coordinates();
         let mut depths: Vec<usize> = Vec::new();
         for (row, joint) in self.rows().iter().enumerate() {
-            let before = joint.carrier(row).map(|carrier| depths[carrier]);
-            depths.push(1 + before.unwrap_or_else(|| self.base_coordinates()));
+            depths.push(1 + joint.carrier(row).map_or(base, |carrier| depths[carrier]));
         }
-        depths
-            .into_iter()
-            .max()
-            .unwrap_or_else(|| self.base_coordinates())
+        depths.into_iter().max().unwrap_or(base)
     }
 
     /// Returns the joints with which limbs begin, a bit each, the lowest for joint 0. A limb is what hangs
@@ -73,8 +66,7 @@ impl Robot {
         limb_starts(rows.map(|row| (self.carrier(row), self.mover_of(row))))
     }
 
-    /// Returns true if some link is carried by another than the link before: the links branch, and
-    /// their joints are placed.
+    /// True if some link is carried by another than the one before: the links branch.
     pub fn branches(&self) -> bool {
         self.rows().iter().any(|joint| joint.parent.is_some())
     }
@@ -89,8 +81,7 @@ impl Robot {
     }
 }
 
-/// Returns the joints with which limbs begin, a bit each, from each row's carrier and the joint by whose
-/// motion it moves.
+/// Returns the [starts of limbs](Robot::limb_starts) from each row's carrier and moving joint.
 pub(crate) fn limb_starts(rows: impl Iterator<Item = (Option<usize>, usize)>) -> u64 {
     let mut roots: Vec<usize> = Vec::new();
     // The first and the last joint of each root's limb.
@@ -133,11 +124,8 @@ impl Findings {
             match joint.parent {
                 Some(Parent::Row(carrier)) if carrier >= row => {
                     let message = format!("the link that carries joint {} comes later", row + 1);
-                    self.error(
-                        parent,
-                        message,
-                        "put each joint after the one that carries it",
-                    );
+                    let help = "put each joint after the one that carries it";
+                    self.error(parent, message, help);
                 }
                 Some(carrier) if carrier == Parent::Row(row.wrapping_sub(1)) || row == 0 => {
                     let message = "the parent is the previous link";
@@ -162,11 +150,8 @@ impl Findings {
             let square: Rational = placed.axis.iter().map(|x| x * x).sum();
             if !square.is_one() {
                 let message = "an axis whose length is not exactly one";
-                self.error(
-                    of_joint(row, "axis"),
-                    message,
-                    "such as [0, 0, 1] or [0.6, 0.8, 0]",
-                );
+                let help = "such as [0, 0, 1] or [0.6, 0.8, 0]";
+                self.error(of_joint(row, "axis"), message, help);
             }
             if !is_tree || joint.has_row() {
                 let message = "the joint has both a placement and a DH row";
@@ -178,17 +163,11 @@ impl Findings {
             return;
         }
         let tips = robot.tips().len();
-        let ends = [
-            ("tool", &robot.tool),
-            ("payload_frame", &robot.payload_frame),
-        ];
-        for (key, _) in ends
-            .into_iter()
-            .filter(|(_, placement)| placement.is_some())
-        {
+        let [_, ends @ ..] = robot.placements();
+        for (key, _) in ends.iter().filter(|(_, placement)| placement.is_some()) {
             let message = format!("`{key}` of a robot whose links have {tips} ends");
             let help = "a [[frame]] with a `link` says which end";
-            self.error(key, message, help);
+            self.error(*key, message, help);
         }
     }
 }

@@ -1,8 +1,7 @@
 //! Sizes that no arm has in SI units: what was probably meant.
 //!
-//! They are taken as they stand. A crane is longer than ten metres and an
-//! excavator heavier than a tonne, but a user who types a data sheet's millimetres
-//! or degrees learns of it here and not from the torques.
+//! They are taken as they stand. A crane is longer than ten metres and an excavator heavier than a
+//! tonne, but a user who types millimetres or degrees learns of it here, not from the torques.
 
 use alloc::borrow::ToOwned;
 use alloc::format;
@@ -19,8 +18,7 @@ use crate::number::{Angle, Rational, Rounded};
 const MAX_LENGTH: i64 = 10;
 /// Heavier links, in kilograms, were probably given in grams.
 const MAX_MASS: i64 = 1000;
-/// Limits of a turning joint's position beyond this many radians (five turns)
-/// were probably given in degrees.
+/// Limits of position beyond this many radians (five turns) were probably given in degrees.
 const MAX_POSITION: i64 = 31;
 /// Larger velocities, in rad/s or m/s, were probably given in degrees or millimetres.
 const MAX_VELOCITY: i64 = 100;
@@ -162,12 +160,10 @@ impl Findings {
                 _ => {}
             }
         }
-        let Some(velocity) = &joint.limits.velocity else {
+        let limit = joint.limits.velocity.as_ref();
+        let Some(velocity) = limit.filter(|limit| **limit > whole(MAX_VELOCITY)) else {
             return;
         };
-        if *velocity <= whole(MAX_VELOCITY) {
-            return;
-        }
         let (unit, of, meant) = match joint.kind {
             JointKind::Revolute => {
                 let radians = f64::nearest_rational(velocity) * core::f64::consts::PI / 180.0;
@@ -203,8 +199,7 @@ impl Findings {
     }
 }
 
-/// Controls that turn the direction of text: with one of them in it, a name, and
-/// the documentation that it stands in, reads otherwise than it is.
+/// Controls that turn the direction of text: a name with one of them reads otherwise than it is.
 pub(super) fn turns_text(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

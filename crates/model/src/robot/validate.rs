@@ -14,8 +14,8 @@ use num_traits::{Signed, Zero};
 use super::body::Defect;
 use super::findings::{Findings, of_joint};
 use super::{
-    BodyRange, Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning,
-    reach, units, values,
+    Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning, reach, units,
+    values,
 };
 use crate::diagnostic::Diagnostic;
 use crate::number::parse::in_range;
@@ -33,8 +33,7 @@ const MAX_FRAME_NAME: usize = 48;
 pub(crate) const ENDINGS: [&str; 2] = ["_batch", "_columns"];
 
 impl Robot {
-    /// Returns every error and warning about the robot. Every later stage accepts a robot
-    /// without an error.
+    /// Returns every error and warning. Every later stage accepts a robot without an error.
     pub fn validate(&self) -> Vec<Diagnostic> {
         self.validate_placed(&[])
     }
@@ -76,8 +75,8 @@ impl Robot {
             findings.doubtful_joint(index, joint);
             let large = reach::large_inertia(&joint.inertia, &joint.mass, &reach);
             if let Some((message, help)) = large {
-                let place = of_joint(index, "inertia");
-                findings.warn(RobotWarning::LargeInertia, place, message, &help);
+                let (name, place) = (RobotWarning::LargeInertia, of_joint(index, "inertia"));
+                findings.warn(name, place, message, &help);
             }
             if let Some(placement) = placed.get(index) {
                 findings.placement(&of_joint(index, "placement"), placement);
@@ -103,14 +102,9 @@ impl Robot {
             }
         }
         findings.frames(self);
-        if let Some((message, help)) = self.payload_range.as_ref().and_then(BodyRange::error) {
-            findings.error("limits/payload", message, help);
-        }
-        if self
-            .notes
-            .iter()
-            .any(|note| values::one_line(note) != *note)
-        {
+        findings.bodies("limits/payload", &self.payload_range);
+        let is_longer = |note: &String| values::one_line(note) != *note;
+        if self.notes.iter().any(is_longer) {
             let message = "a note has a character that controls text or turns its direction";
             findings.error("notes", message, "write each note in one line");
         }
@@ -233,9 +227,7 @@ impl Findings {
                 self.not_negative(&at(&format!("limits/{}", rate.key())), limit);
             }
         }
-        if let Some((message, help)) = joint.limits.body.as_ref().and_then(BodyRange::error) {
-            self.error(at("limits/body"), message, help);
-        }
+        self.bodies(at("limits/body"), &joint.limits.body);
         if let Some(range) = &joint.limits.position {
             self.range(&at("limits/position"), joint.kind, range);
         }
@@ -335,8 +327,7 @@ impl Findings {
             }
             Defect::Massless => "expected for a link whose mass was left out; taken as it stands",
         };
-        // A missing mass that leaves the tensor a possible one is usual in
-        // published tables, and so is a broken one: either way only a warning.
+        // Published tables miss masses and have broken tensors: either way only a warning.
         let warning = RobotWarning::ImpossibleInertia;
         self.warn(warning, place, defect.message(), help);
     }
@@ -365,16 +356,14 @@ pub(crate) fn is_snake(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_lowercase()) && is_plain(name)
 }
 
-/// Returns true if a frame may have this name: small letters, digits and single `_`
-/// between them, and no ending that is one of functions' own.
+/// True if a frame may have this name: `[a-z0-9]` and single `_` inside, no ending of functions.
 pub fn is_frame_name(name: &str) -> bool {
     let is_own = ENDINGS.iter().any(|ending| name.ends_with(ending));
     let bars = name.starts_with('_') || name.ends_with('_') || name.contains("__");
     (1..=MAX_FRAME_NAME).contains(&name.len()) && is_plain(name) && !bars && !is_own
 }
 
-/// Returns the nearest name that a robot can have: `"UR-10 e"` gives `ur_10_e`; none
-/// where there is no letter or digit.
+/// Returns the nearest name that a robot can have, `ur_10_e` for `"UR-10 e"`; none of signs alone.
 pub fn suggested_name(name: &str) -> Option<String> {
     let mut better = String::new();
     for c in name.chars() {

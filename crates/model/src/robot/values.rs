@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::fmt::Write;
 
 use super::units::turns_text;
-use super::{BodyRange, Placement, Position};
+use super::{BodyRange, Parent, Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 
@@ -54,6 +54,13 @@ pub fn bodies(range: &BodyRange) -> Option<String> {
     table([("mass", Some(numbers(&range.mass))), ("radius", radius)])
 }
 
+pub(crate) fn parent(parent: Parent) -> String {
+    match parent {
+        Parent::Base => quoted(Parent::BASE),
+        Parent::Row(row) => format!("{}", row + 1),
+    }
+}
+
 /// Returns a table of `xyz` and `rpy`.
 pub fn placement(value: &Placement) -> String {
     let (xyz, rpy) = (numbers(&value.xyz), list(value.rpy.iter().map(angle)));
@@ -85,10 +92,8 @@ pub fn table<'k>(keys: impl IntoIterator<Item = (&'k str, Option<String>)>) -> O
 
 /// Returns an array of texts, a line each; `None` if there are none.
 pub fn texts(texts: &[String]) -> Option<String> {
-    let lines: String = texts
-        .iter()
-        .map(|text| format!("    {},\n", quoted(text)))
-        .collect();
+    let line = |text: &String| format!("    {},\n", quoted(text));
+    let lines: String = texts.iter().map(line).collect();
     (!texts.is_empty()).then(|| format!("[\n{lines}]"))
 }
 

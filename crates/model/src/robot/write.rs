@@ -8,17 +8,16 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::values::{
-    angle, bodies, lines, list, number, numbers, placement, position, quoted, range, short_hash,
-    table, texts, unless_zero, word,
+    angle, bodies, lines, list, number, numbers, parent, placement, position, quoted, range,
+    short_hash, table, texts, unless_zero, word,
 };
 use super::{Convention, FloatingBase, Joint, JointKind, Parent, Placed, Placement, Robot};
 use crate::number::Rational;
 
 /// Writes a robot as a robot file.
 ///
-/// Numbers that have no decimal, like 1/3, become strings, `"1/3"`, which the
-/// reader takes too. Reading the text gives the same robot with angles in
-/// [canonical](crate::number::Angle::canonical) form, but one of radians that
+/// Numbers that have no decimal, like 1/3, become strings, `"1/3"`. Reading the text gives the same
+/// robot with angles in [canonical](crate::number::Angle::canonical) form, but one of radians that
 /// [counts as](crate::number::SnappedAngle::Taken) a multiple of π/2 becomes that.
 pub fn write(robot: &Robot) -> String {
     let mut text = String::new();
@@ -28,10 +27,9 @@ pub fn write(robot: &Robot) -> String {
         ("convention", (!robot.is_tree()).then(|| quoted(convention))),
         ("gravity", Some(numbers(&robot.gravity))),
     ];
-    let placements = robot
-        .placements()
-        .map(|(key, value)| (key, value.map(placement)));
-    lines(&mut text, head.into_iter().chain(placements));
+    lines(&mut text, head);
+    let written = |(key, value): (_, Option<&Placement>)| (key, value.map(placement));
+    lines(&mut text, robot.placements().map(written));
     let limits = table([("payload", robot.payload_range.as_ref().and_then(bodies))]);
     lines(&mut text, [("limits", limits)]);
     lines(&mut text, [("notes", texts(&robot.notes))]);
@@ -54,10 +52,7 @@ pub fn write(robot: &Robot) -> String {
     }
     for frame in &robot.frames {
         text.push_str("\n[[frame]]\n");
-        let link = match frame.row {
-            Some(row) => format!("{}", row + 1),
-            None => quoted(Parent::BASE),
-        };
+        let link = parent(frame.row.map_or(Parent::Base, Parent::Row));
         let head = [("name", Some(quoted(&frame.name))), ("link", Some(link))];
         lines(&mut text, head);
         write_frame(&mut text, &frame.placement);
@@ -66,8 +61,7 @@ pub fn write(robot: &Robot) -> String {
 }
 
 impl Robot {
-    /// SHA-256 of the [written](write()) robot without its notes: equal exactly if every
-    /// parameter is, names and limits included.
+    /// SHA-256 of the [written](write()) robot but its notes: equal exactly if all parameters are.
     pub fn input_hash(&self) -> [u8; 32] {
         hmac_sha256::Hash::hash(self.without_notes().as_bytes())
     }
@@ -93,25 +87,19 @@ fn write_base(text: &mut String, base: &FloatingBase) {
         ("torque", six(&base.limits.torque)),
         ("body", base.limits.body.as_ref().and_then(bodies)),
     ]);
-    lines(
-        text,
-        [
-            ("name", base.name.as_deref().map(quoted)),
-            ("kind", Some(quoted(FloatingBase::KIND))),
-            ("mass", Some(number(&base.mass))),
-            ("com", Some(numbers(&base.com))),
-            ("inertia", Some(numbers(base.inertia.entries()))),
-            ("limits", limits),
-        ],
-    );
+    let keys = [
+        ("name", base.name.as_deref().map(quoted)),
+        ("kind", Some(quoted(FloatingBase::KIND))),
+        ("mass", Some(number(&base.mass))),
+        ("com", Some(numbers(&base.com))),
+        ("inertia", Some(numbers(base.inertia.entries()))),
+        ("limits", limits),
+    ];
+    lines(text, keys);
 }
 
 fn write_joint(text: &mut String, joint: &Joint) {
     let zero = || String::from("0");
-    let parent = joint.parent.map(|parent| match parent {
-        Parent::Base => quoted(Parent::BASE),
-        Parent::Row(row) => format!("{}", row + 1),
-    });
     let place = joint.place.as_ref();
     let placed = |placed: &Placed| match placed.placement.is_identity() {
         true => String::from("{}"),
@@ -129,31 +117,29 @@ fn write_joint(text: &mut String, joint: &Joint) {
         ("torque", limits.torque.as_ref().map(number)),
         ("body", limits.body.as_ref().and_then(bodies)),
     ]);
-    lines(
-        text,
-        [
-            ("name", joint.name.as_deref().map(quoted)),
-            ("parent", parent),
-            ("kind", Some(quoted(word(&JointKind::WORDS, &joint.kind)))),
-            ("placement", place.map(placed)),
-            ("axis", place.map(|placed| numbers(&placed.axis))),
-            ("alpha", unless_zero(angle(&joint.alpha))),
-            ("beta", unless_zero(angle(&joint.beta))),
-            ("a", unless_zero(number(&joint.a))),
-            ("d", unless_zero(d)),
-            ("theta", unless_zero(theta)),
-            ("offset", unless_zero(offset)),
-            ("mass", Some(number(&joint.mass))),
-            ("com", Some(numbers(&joint.com))),
-            ("inertia", Some(numbers(joint.inertia.entries()))),
-            ("viscous", unless_zero(number(&joint.viscous))),
-            ("coulomb", unless_zero(number(&joint.coulomb))),
-            ("coulomb_width", unless_zero(number(&joint.coulomb_width))),
-            ("armature", unless_zero(number(&joint.armature))),
-            ("frame", joint.frame.as_ref().map(placement)),
-            ("limits", limits),
-        ],
-    );
+    let keys = [
+        ("name", joint.name.as_deref().map(quoted)),
+        ("parent", joint.parent.map(parent)),
+        ("kind", Some(quoted(word(&JointKind::WORDS, &joint.kind)))),
+        ("placement", place.map(placed)),
+        ("axis", place.map(|placed| numbers(&placed.axis))),
+        ("alpha", unless_zero(angle(&joint.alpha))),
+        ("beta", unless_zero(angle(&joint.beta))),
+        ("a", unless_zero(number(&joint.a))),
+        ("d", unless_zero(d)),
+        ("theta", unless_zero(theta)),
+        ("offset", unless_zero(offset)),
+        ("mass", Some(number(&joint.mass))),
+        ("com", Some(numbers(&joint.com))),
+        ("inertia", Some(numbers(joint.inertia.entries()))),
+        ("viscous", unless_zero(number(&joint.viscous))),
+        ("coulomb", unless_zero(number(&joint.coulomb))),
+        ("coulomb_width", unless_zero(number(&joint.coulomb_width))),
+        ("armature", unless_zero(number(&joint.armature))),
+        ("frame", joint.frame.as_ref().map(placement)),
+        ("limits", limits),
+    ];
+    lines(text, keys);
 }
 
 /// Writes the keys of a `[[frame]]` table that say where it is.

@@ -22,8 +22,7 @@ impl Counter {
         Count::Value(self)
     }
 
-    /// Returns the multiplications so far, halving included, and the additions, with subtraction
-    /// and doubling.
+    /// Returns the multiplications, with halvings, and the additions, with differences and doublings.
     pub fn counts(&self) -> (u64, u64) {
         (self.multiplications.get(), self.additions.get())
     }

@@ -15,34 +15,24 @@ pub struct Dual<S> {
 impl<S: Scalar> Dual<S> {
     /// Returns a number that does not change.
     pub fn constant(value: S) -> Self {
-        Dual {
-            value,
-            rate: S::zero(),
-        }
+        let rate = S::zero();
+        Dual { value, rate }
     }
 
     fn with(&self, other: &Self, operation: impl Fn(&S, &S) -> S) -> Self {
-        Dual {
-            value: operation(&self.value, &other.value),
-            rate: operation(&self.rate, &other.rate),
-        }
+        let value = operation(&self.value, &other.value);
+        let rate = operation(&self.rate, &other.rate);
+        Dual { value, rate }
     }
 }
 
 impl<S: Scalar> SinCosPair<S> {
     /// Returns the pair of an angle that changes at a rate.
     pub fn turning(self, rate: &S) -> SinCosPair<Dual<S>> {
-        let SinCosPair { sin, cos } = self;
-        SinCosPair {
-            sin: Dual {
-                rate: cos.mul(rate),
-                value: sin.clone(),
-            },
-            cos: Dual {
-                rate: sin.mul(rate).neg(),
-                value: cos,
-            },
-        }
+        let [sin_rate, cos_rate] = [self.cos.mul(rate), self.sin.mul(rate).neg()];
+        let changing = |value, rate| Dual { value, rate };
+        let (sin, cos) = (changing(self.sin, sin_rate), changing(self.cos, cos_rate));
+        SinCosPair { sin, cos }
     }
 }
 
@@ -61,10 +51,9 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
     fn mul(&self, other: &Self) -> Self {
         let [left, right] = [self.rate.mul(&other.value), self.value.mul(&other.rate)];
-        Dual {
-            value: self.value.mul(&other.value),
-            rate: left.add(&right),
-        }
+        let value = self.value.mul(&other.value);
+        let rate = left.add(&right);
+        Dual { value, rate }
     }
     fn neg(&self) -> Self {
         self.with(self, |x, _| x.neg())
@@ -84,10 +73,7 @@ impl<S: Divide> Divide for Dual<S> {
     /// Returns (x/y)˙ = (ẋ − (x/y) ẏ)/y
     fn div(&self, other: &Self) -> Self {
         let value = self.value.div(&other.value);
-        let moved = self.rate.sub(&value.mul(&other.rate));
-        Dual {
-            rate: moved.div(&other.value),
-            value,
-        }
+        let rate = self.rate.sub(&value.mul(&other.rate)).div(&other.value);
+        Dual { value, rate }
     }
 }

@@ -17,8 +17,7 @@ pub struct Modulo<const PRIME: u64>(u64);
 /// The field of searches: integers modulo 2⁶¹ − 1.
 pub type Field = Modulo<{ (1 << 61) - 1 }>;
 
-/// The field of proofs, and of the second look at fractions that the field of searches finds:
-/// integers modulo 2⁶¹ − 465.
+/// The field of proofs, and of the second look at what searches find: integers modulo 2⁶¹ − 465.
 pub type ProofField = Modulo<{ (1 << 61) - 465 }>;
 
 impl<const PRIME: u64> Modulo<PRIME> {
@@ -77,8 +76,7 @@ impl<const PRIME: u64> Modulo<PRIME> {
 
     /// Returns (sin, cos) = (2t, 1 − t²) / (1 + t²), a point of the circle.
     ///
-    /// Every point but (0, −1) has its t. The denominator is never zero: −1 is
-    /// no square modulo p ≡ 3 (mod 4).
+    /// Every point but (0, −1) has its t. As p ≡ 3 (mod 4), −1 is no square: nothing divides by 0.
     pub fn circle_point(t: Self) -> (Self, Self) {
         let square = t.mul(&t);
         let scale = Self::ONE.add(&square).pow(Self::P - 2);
@@ -147,8 +145,7 @@ impl<const PRIME: u64> Scalar for Modulo<PRIME> {
 }
 
 impl<const PRIME: u64> Divide for Modulo<PRIME> {
-    /// Returns the quotient; zero where the divisor is zero, which proofs exclude by
-    /// [`divides`](Divide::divides).
+    /// Returns the quotient; zero for a divisor of zero, which [`divides`](Divide::divides) tells.
     fn div(&self, other: &Self) -> Self {
         other.inverse().map_or(Self::ZERO, |x| self.mul(&x))
     }

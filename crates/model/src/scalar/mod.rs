@@ -1,8 +1,7 @@
 //! The arithmetic that every formula is generic over.
 //!
-//! A scalar never calls sin or cos: the equations take each joint's
-//! (sin, cos) pair as input. Zero and one need no context, so that symbolic
-//! and counting scalars can fold them without a global state.
+//! A scalar never calls sin or cos: the equations take each joint's (sin, cos) pair as input. Zero
+//! and one need no context, so that symbolic and counting scalars fold them without a state.
 //!
 //! - this file: floats, for the generic runtime, and the pair in which formulas take an angle
 //! - [`field`]: integers modulo primes: in one the search compares values, in another proofs are made
@@ -21,8 +20,7 @@ use structural::{minus, plus, times};
 
 /// A commutative ring with a half, enough for every dynamics formula.
 ///
-/// Named methods take references: a symbolic scalar is a shared handle and
-/// operators would hide its clones.
+/// Methods take references: of a symbolic scalar, a shared handle, operators would hide clones.
 pub trait Scalar: Clone {
     /// Returns the additive identity, known as such without context.
     fn zero() -> Self;
@@ -89,20 +87,17 @@ pub struct SinCosPair<S> {
 impl<S: Scalar> SinCosPair<S> {
     /// Returns the pair of the sum of two angles.
     pub fn compose(&self, other: &Self) -> Self {
-        SinCosPair {
-            sin: plus(&times(&self.sin, &other.cos), &times(&self.cos, &other.sin)),
-            cos: minus(&times(&self.cos, &other.cos), &times(&self.sin, &other.sin)),
-        }
+        let sin = plus(&times(&self.sin, &other.cos), &times(&self.cos, &other.sin));
+        let cos = minus(&times(&self.cos, &other.cos), &times(&self.sin, &other.sin));
+        SinCosPair { sin, cos }
     }
 }
 
 impl<S> SinCosPair<S> {
     /// Returns both entries through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> SinCosPair<T> {
-        SinCosPair {
-            sin: f(&self.sin),
-            cos: f(&self.cos),
-        }
+        let (sin, cos) = (f(&self.sin), f(&self.cos));
+        SinCosPair { sin, cos }
     }
 }
 

@@ -132,14 +132,8 @@ mod tests {
     #[test]
     fn structure_changes_no_value() {
         let mut points = Points::new(0x5a);
-        let minus = Value(Field::from_i64(-1));
-        let cases = [
-            Zero,
-            One,
-            minus,
-            Value(points.field()),
-            Value(points.field()),
-        ];
+        let [minus, x, y] = [Field::from_i64(-1), points.field(), points.field()].map(Value);
+        let cases = [Zero, One, minus, x, y];
         type Own = Sparse<Field>;
         type Operation<S> = fn(&S, &S) -> S;
         let pairs: [(Operation<Own>, Operation<Field>); 4] = [

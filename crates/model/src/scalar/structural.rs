@@ -1,5 +1,4 @@
-//! Arithmetic that a structural zero or one saves: what the formulas do not
-//! need is never computed, in any scalar.
+//! Arithmetic that a structural zero or one saves: nothing needless is computed, in any scalar.
 
 use super::{Divide, Scalar};
 

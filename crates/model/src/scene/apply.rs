@@ -1,13 +1,11 @@
 //! The robot that a scene makes of a robot, exactly.
 
-use alloc::vec::Vec;
-
 use num_traits::Zero;
 
 use super::{Payload, Scene};
 use crate::number::Rational;
 use crate::placed::frame;
-use crate::robot::{Inertia, Joint, Parent, Robot};
+use crate::robot::{FloatingBase, Inertia, Joint, Limit, Parent, Robot};
 
 impl Scene {
     /// Returns the robot with the scene's gravity and payload, and with the box as
@@ -20,18 +18,20 @@ impl Scene {
         if let Some(gravity) = &self.gravity {
             robot.gravity = gravity.clone();
         }
-        let payload = self.carried(&robot);
-        if let Some(payload) = payload {
-            let last = robot.rows().len().saturating_sub(1);
-            match (self.payload_link, &mut robot.floating) {
-                (Some(Parent::Base), Some(base)) => {
+        if let Some(payload) = self.carried(&robot) {
+            let last = Parent::Row(robot.rows().len().saturating_sub(1));
+            match (self.payload_link.unwrap_or(last), &mut robot.floating) {
+                (Parent::Base, Some(base)) => {
                     let mut body = base.body();
                     carry(&mut body, &payload);
                     (base.mass, base.com, base.inertia) = (body.mass, body.com, body.inertia);
                 }
-                (Some(Parent::Base), None) => {}
-                (Some(Parent::Row(row)), _) => robot.carry(row, &payload),
-                (None, _) => robot.carry(last, &payload),
+                (Parent::Base, None) => {}
+                (Parent::Row(row), _) => {
+                    if let Some(link) = robot.row_mut(row) {
+                        carry(link, &payload);
+                    }
+                }
             }
         }
         if self.lock_base && robot.floating.take().is_some() {
@@ -41,64 +41,30 @@ impl Scene {
                 first.parent = Some(Parent::Base);
             }
         }
-        if let Some(range) = &self.bounds.payload {
-            robot.payload_range = Some(range.clone());
-        }
         let (base, bounds) = (robot.base_coordinates(), &self.bounds);
-        if let Some(floating) = &mut robot.floating {
-            let limits = &mut floating.limits;
-            bound(&mut limits.velocity, &bounds.velocity, |velocities| {
-                velocities.first_chunk()
-            });
-            bound(
-                &mut limits.acceleration,
-                &bounds.acceleration,
-                |accelerations| accelerations.first_chunk(),
-            );
+        robot.payload_range = bounds.payload.clone().or(robot.payload_range);
+        if let Some(FloatingBase { limits, .. }) = &mut robot.floating {
+            let six = |rate: Limit| bounds.rate(rate)?.first_chunk().cloned();
+            limits.velocity = six(Limit::Velocity).or(limits.velocity.take());
+            limits.acceleration = six(Limit::Acceleration).or(limits.acceleration.take());
         }
-        for (i, joint) in robot.joints.iter_mut().enumerate() {
-            let limits = &mut joint.limits;
-            bound(&mut limits.position, &bounds.position, |positions| {
-                positions.get(i)
-            });
-            bound(&mut limits.velocity, &bounds.velocity, |velocities| {
-                velocities.get(base + i)
-            });
-            bound(
-                &mut limits.acceleration,
-                &bounds.acceleration,
-                |accelerations| accelerations.get(base + i),
-            );
+        for (i, Joint { limits, .. }) in robot.joints.iter_mut().enumerate() {
+            let position = bounds.position.as_ref().and_then(|ranges| ranges.get(i));
+            let bound = |rate: Limit| bounds.rate(rate)?.get(base + i).cloned();
+            limits.position = position.cloned().or(limits.position.take());
+            limits.velocity = bound(Limit::Velocity).or(limits.velocity.take());
+            limits.acceleration = bound(Limit::Acceleration).or(limits.acceleration.take());
         }
         robot
     }
 
-    /// Returns the payload in the frame of the robot's last row: to some twenty digits, where the
-    /// robot's frame of payloads is tilted.
+    /// Returns the payload in the last row's frame, to some twenty digits where its own is tilted.
     pub fn carried(&self, robot: &Robot) -> Option<Payload> {
         let payload = self.payload.as_ref()?;
         Some(match &robot.payload_frame {
             None => payload.clone(),
             Some(frame) => frame::moved(payload, &frame::pose(frame), &frame.size()),
         })
-    }
-}
-
-impl Robot {
-    fn carry(&mut self, row: usize, payload: &Payload) {
-        if let Some(link) = self.row_mut(row) {
-            carry(link, payload);
-        }
-    }
-}
-
-fn bound<T: Clone, A>(
-    limit: &mut Option<T>,
-    bounds: &Option<Vec<A>>,
-    part: impl Fn(&[A]) -> Option<&T>,
-) {
-    if let Some(bound) = bounds.as_deref().and_then(part) {
-        *limit = Some(bound.clone());
     }
 }
 

@@ -40,11 +40,9 @@ pub struct Scene {
     pub velocity_zero: bool,
     /// q̈ = 0: the same for accelerations.
     pub acceleration_zero: bool,
-    /// The payload on the last link, given in that one's own frame: in the robot's
-    /// [`payload_frame`](crate::robot::Robot::payload_frame).
+    /// The payload on the last link, in the [`payload_frame`](crate::robot::Robot::payload_frame).
     pub payload: Option<Payload>,
-    /// The link that holds the payload, in the link's frame, where links have several ends: that of a
-    /// row, or a base that floats.
+    /// The link that holds the payload, in that link's frame, where links have several ends.
     pub payload_link: Option<Parent>,
     /// The ranges of the motion, instead of the robot's limits.
     pub bounds: MotionBox,
@@ -57,9 +55,8 @@ pub struct Scene {
 /// Ranges of motion, an entry a joint, and of the payload; what is missing is the robot's limit. Of
 /// rates where the base floats, an entry a coordinate: six of the base come first.
 ///
-/// A range of positions that the joint can never take is an error; one that
-/// goes beyond the robot's limits is taken as it stands, with a warning: it is
-/// where bounds hold, not where the joint can go. A rate may be zero: at rest.
+/// A range of positions that the joint can never take is an error; one beyond the robot's limits a
+/// warning: it is where bounds hold, not where the joint can go. A rate may be zero: at rest.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct MotionBox {
     /// Lowest and highest positions.
@@ -139,8 +136,7 @@ impl SceneScalar {
 }
 
 impl Scene {
-    /// The word for the pose of a base that is locked: gravity has the same entries in its axes as in the
-    /// robot file.
+    /// The word for the pose of a locked base: gravity is in its axes as in the robot file.
     pub const LEVEL: &'static str = "level";
 
     /// Returns the position a joint is locked at.
@@ -151,10 +147,9 @@ impl Scene {
 
     /// Returns the coordinates of a base that floats in the scene: six, or none.
     pub fn base_coordinates(&self, robot: &Robot) -> usize {
-        if self.lock_base {
-            0
-        } else {
-            robot.base_coordinates()
+        match self.lock_base {
+            true => 0,
+            false => robot.base_coordinates(),
         }
     }
 

@@ -19,8 +19,7 @@ use crate::diagnostic::Diagnostic;
 use crate::robot::{Findings, Joint, JointKind, Parent, Robot, RobotWarning, is_plain, reach};
 
 impl Scene {
-    /// Returns every error and warning about the scene. Every later stage accepts a scene
-    /// without an error, with this robot.
+    /// Returns every error and warning. Every later stage accepts a scene without an error.
     pub fn validate(&self, robot: &Robot) -> Vec<Diagnostic> {
         let mut check = Check {
             scene: self,
@@ -118,15 +117,10 @@ impl<'a> Check<'a> {
                 self.error(place, "the position has the wrong unit", help);
                 continue;
             }
-            let scene = self.scene;
-            let positions = scene.bounds.position.as_ref();
-            for (range, whose) in [
-                (joint.limits.position.as_ref(), "limits"),
-                (
-                    positions.and_then(|ranges| ranges.get(*index)),
-                    "range in the box",
-                ),
-            ] {
+            let positions = self.scene.bounds.position.as_ref();
+            let bound = positions.and_then(|ranges| ranges.get(*index));
+            let limits = joint.limits.position.as_ref();
+            for (range, whose) in [(limits, "limits"), (bound, "range in the box")] {
                 let Some([low, high]) = range else { continue };
                 if at.is_below(low) || high.is_below(at) {
                     let name = self.robot.joint_label(*index);

@@ -44,10 +44,9 @@ impl<S: Scalar> MomentBody<S> {
         let half = plus(&plus(&tensor.xx, &tensor.yy), &tensor.zz).half();
         let first = scaled(&link.mass, &link.com);
         let second = Inertia::symmetric(|i, j| {
-            let about_centre = if i == j {
-                minus(&half, entry(tensor, i, i))
-            } else {
-                negative(entry(tensor, i, j))
+            let about_centre = match i == j {
+                true => minus(&half, entry(tensor, i, i)),
+                false => negative(entry(tensor, i, j)),
             };
             plus(&about_centre, &times(&first[i], &link.com[j]))
         });
@@ -81,12 +80,11 @@ impl<S: Scalar> MomentBody<S> {
 
     /// Returns both together, about the same origin and in the same axes.
     pub fn with(&self, other: &MomentBody<S>) -> Self {
+        let both = |i: usize, j: usize| plus(entry(&self.second, i, j), entry(&other.second, i, j));
         MomentBody {
             mass: plus(&self.mass, &other.mass),
             first: sum(&self.first, &other.first),
-            second: Inertia::symmetric(|i, j| {
-                plus(entry(&self.second, i, j), entry(&other.second, i, j))
-            }),
+            second: Inertia::symmetric(both),
         }
     }
 

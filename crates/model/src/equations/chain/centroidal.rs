@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::MomentBody;
+use super::body::{MomentBody, entry};
 use super::composite::Composite;
 use super::floating::unit_twists;
 use super::form::Form;
@@ -27,14 +27,10 @@ impl<S: Divide> Whole<S> {
         let per_mass = S::one().div(&body.mass);
         let centre = scaled(&per_mass, &body.first);
         let [first, second] = [&body.first, &centre];
-        let second = Inertia::symmetric(|i, j| {
-            let second_moment = super::body::entry(&body.second, i, j);
-            minus(second_moment, &times(&first[i], &second[j]))
+        let mut about_centre = MomentBody::zero();
+        about_centre.second = Inertia::symmetric(|i, j| {
+            minus(entry(&body.second, i, j), &times(&first[i], &second[j]))
         });
-        let about_centre = MomentBody {
-            second,
-            ..MomentBody::zero()
-        };
         Whole {
             per_mass,
             centre,
@@ -43,13 +39,13 @@ impl<S: Divide> Whole<S> {
     }
 
     fn row(&self, axis: usize) -> Vector<S> {
-        three(|k| super::body::entry(&self.tensor, axis, k).clone())
+        three(|k| entry(&self.tensor, axis, k).clone())
     }
 
     /// Returns the acceleration that a wrench about the origin gives.
     fn driven(&self, wrench: &Wrench<S>) -> Twist<S> {
         let moment = difference(&wrench.moment, &cross(&self.centre, &wrench.force));
-        let tensor: Vec<Vec<S>> = (0..3).map(|axis| self.row(axis).to_vec()).collect();
+        let tensor: Matrix<S> = (0..3).map(|axis| self.row(axis).to_vec()).collect();
         let turn = Factor::new(&tensor).solve(&moment);
         let turn = three(|axis| turn[axis].clone());
         let by_force = scaled(&self.per_mass, &wrench.force);
@@ -67,22 +63,17 @@ impl<S: Divide> Composite<'_, S> {
     }
 
     /// Returns the momentum of each coordinate about the centre of mass, linear over angular, 6×n.
-    pub fn centroidal_momentum_matrix(&self) -> Option<Vec<Vec<S>>> {
+    pub fn centroidal_momentum_matrix(&self) -> Option<Matrix<S>> {
         let body = self.base.as_ref()?;
         let (whole, chain) = (Whole::new(body), self.chain);
-        let of_base = unit_twists()
-            .into_iter()
-            .enumerate()
-            .map(|(k, unit)| Wrench {
-                force: match k < 3 {
-                    true => scaled(&body.mass, &unit.shift),
-                    false => cross(&unit.turn, &body.first),
-                },
-                moment: match k < 3 {
-                    true => zero_vector(),
-                    false => whole.row(k - 3),
-                },
-            });
+        let units = unit_twists().into_iter().enumerate();
+        let of_base = units.map(|(k, unit)| {
+            let (force, moment) = match k < 3 {
+                true => (scaled(&body.mass, &unit.shift), zero_vector()),
+                false => (cross(&unit.turn, &body.first), whole.row(k - 3)),
+            };
+            Wrench { force, moment }
+        });
         let of_joints = (0..chain.links.len()).map(|k| {
             let Wrench { force, moment } = self.push_on_base(k);
             let moment = difference(&moment, &cross(&whole.centre, &force));
@@ -96,19 +87,15 @@ impl<S: Divide> Composite<'_, S> {
     }
 
     /// Returns the rate of that momentum, from h.
-    pub fn centroidal_bias(&self, h: &[S]) -> Option<[S; BASE_COORDINATES]> {
+    pub fn centroidal_bias(&self, h: &[S]) -> Option<[S; 6]> {
         let centre = self.centre_of_mass()?;
-        let [force, moment] = [0, 3].map(|from| three(|i| h[from + i].clone()));
+        let [force, moment] = parts(h);
         Some(about(&centre, &Wrench { force, moment }))
     }
 
     /// Returns the torques of a floating robot that nothing holds, and the accelerations of its base:
     /// it falls, and what joints do to the base then accelerates it further. None on a fixed base.
-    pub fn in_flight(
-        &self,
-        [qd, qdd]: [&[S]; 2],
-        form: Form,
-    ) -> Option<(Vec<S>, [S; BASE_COORDINATES])> {
+    pub fn in_flight(&self, [qd, qdd]: [&[S]; 2], form: Form) -> Option<(Vec<S>, [S; 6])> {
         let (chain, at) = (self.chain, self.at);
         let whole = Whole::new(self.base.as_ref()?);
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
@@ -121,10 +108,8 @@ impl<S: Divide> Composite<'_, S> {
         let motions = Motions { base, links };
         let loads = chain.torques(at, &motions, form.couple, &zero_vector(), drive);
         let driven = |from: usize, scale: &S| three(|i| negative(&loads[from + i]).div(scale));
-        let pushed = whole.driven(&Wrench {
-            force: driven(0, &chain.per_unit),
-            moment: driven(3, &S::one()),
-        });
+        let (force, moment) = (driven(0, &chain.per_unit), driven(3, &S::one()));
+        let pushed = whole.driven(&Wrench { force, moment });
         let felt = chain.outward(pushed.clone(), |i, before: &Twist<S>| {
             chain.links[i].twist_outward(&at[i], before)
         });

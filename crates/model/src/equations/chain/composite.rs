@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::recursion::{AccelerationForm, LinkMotion, MomentForm};
-use super::{Chain, Displacement, MomentBody};
+use super::{Chain, Displacement, MomentBody, Posture};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -24,7 +24,7 @@ pub enum CompositeOrder {
 #[derive(Clone, Debug)]
 pub struct Composite<'a, S> {
     pub(super) chain: &'a Chain<S>,
-    pub(super) at: &'a [Displacement<S>],
+    pub(super) at: &'a Posture<S>,
     /// That of a base that floats with all that it carries.
     pub(super) base: Option<MomentBody<S>>,
     pub(super) bodies: Vec<MomentBody<S>>,
@@ -39,13 +39,22 @@ pub(super) struct JointEffect<S, const WRENCHES: usize, const VECTORS: usize> {
     pub(super) vectors: [Vector<S>; VECTORS],
 }
 
+impl<S: Scalar, const WRENCHES: usize, const VECTORS: usize> JointEffect<S, WRENCHES, VECTORS> {
+    /// Carries it from frame i to the frame before.
+    pub(super) fn carried(self, composite: &Composite<'_, S>, i: usize) -> Self {
+        let (chain, at) = (composite.chain, composite.at);
+        let wrenches = (self.wrenches).map(|wrench| chain.to_previous(i, at, &wrench));
+        let vectors = (self.vectors).map(|vector| chain.links[i].outward(&at[i], &vector));
+        JointEffect { wrenches, vectors }
+    }
+}
+
 impl<'a, S: Scalar> Composite<'a, S> {
     /// Composes the bodies from the hand inward.
-    pub fn new(chain: &'a Chain<S>, at: &'a [Displacement<S>]) -> Self {
+    pub fn new(chain: &'a Chain<S>, at: &'a Posture<S>) -> Self {
         let whole = |i: usize, outer: Option<MomentBody<S>>| {
-            let body = chain.links[i]
-                .body
-                .with(&outer.unwrap_or_else(MomentBody::zero));
+            let outer = outer.unwrap_or_else(MomentBody::zero);
+            let body = chain.links[i].body.with(&outer);
             (body.clone(), body)
         };
         let back = |i: usize, body: MomentBody<S>| {
@@ -98,9 +107,9 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// Returns D of all coordinates, armature on the diagonal.
-    pub fn inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
+    pub fn inertia(&self, travel: CompositeOrder) -> Matrix<S> {
         let n = self.chain.links.len();
-        let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
+        let columns: Matrix<S> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
         let joints = symmetric(n, |i, k| columns[i][k].clone());
         match &self.base {
             None => joints,
@@ -129,10 +138,10 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// Returns `h[i][k][m]` = h_ikm, n×n×n.
-    pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
+    pub fn christoffel(&self) -> Vec<Matrix<S>> {
         let n = self.chain.links.len();
         let rows = |m: usize| (0..=m).map(|k| self.christoffel_row(k, m)).collect();
-        let outer: Vec<Vec<Vec<S>>> = (0..n).map(rows).collect();
+        let outer: Vec<Matrix<S>> = (0..n).map(rows).collect();
         symmetric_each(n, |i, m, k| match m.cmp(&i) {
             Ordering::Greater => outer[m][k][i].clone(),
             // h_iki = 0: a joint does not feel its own Coriolis term.
@@ -157,13 +166,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
             let (spin, couple) = (AccelerationForm::Column, MomentForm::SecondMoments);
             return chain.inverse_dynamics(self.at, &rest, &rest, spin, couple);
         }
-        let mut pulls: Vec<Vector<S>> = Vec::with_capacity(chain.links.len());
-        let c = chain.links.iter().enumerate().map(|(i, link)| {
-            let before = link.parent.map_or(&chain.gravity, |parent| &pulls[parent]);
+        let base = self.base.iter().flat_map(|body| chain.weight(body));
+        let mut c: Vec<S> = base.collect();
+        chain.outward(chain.gravity.clone(), |i, before| {
+            let (link, body) = (&chain.links[i], &self.bodies[i]);
             let gravity = link.inward(&self.at[i], before);
-            pulls.push(gravity.clone());
-            let body = &self.bodies[i];
-            match link.kind {
+            c.push(match link.kind {
                 JointKind::Revolute => {
                     let [x, y, _] = &body.first;
                     minus(&times(y, &gravity[0]), &times(x, &gravity[1]))
@@ -172,10 +180,10 @@ impl<'a, S: Scalar> Composite<'a, S> {
                     let pull = dot(&scaled(&body.mass, &link.axis), &gravity);
                     negative(&times(&pull, &chain.per_unit))
                 }
-            }
+            });
+            gravity
         });
-        let base = self.base.iter().flat_map(|body| chain.weight(body));
-        base.chain(c).collect()
+        c
     }
 
     /// Returns τ, an entry a coordinate, without armature and damping.
@@ -189,15 +197,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
     ) -> Vec<S> {
         let chain = self.chain;
         let (rates, accelerations) = (chain.rates(qd), chain.rates(qdd));
-        let n = chain.links.len();
         let base = chain.base_motion([qd, qdd], gravity);
-        let mut motions: Vec<LinkMotion<S>> = Vec::with_capacity(n);
-        let mut wrenches = Vec::with_capacity(n);
-        let mut still_loads = Vec::with_capacity(n);
-        for (i, link) in chain.links.iter().enumerate() {
-            let before = link.parent.map_or(&base, |parent| &motions[parent]);
+        let (mut wrenches, mut still_loads) = (Vec::new(), Vec::new());
+        chain.outward(base.clone(), |i, before: &LinkMotion<S>| {
+            let (link, body) = (&chain.links[i], &self.bodies[i]);
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
-            let body = &self.bodies[i];
             let at_rest = still.wrench(body, MomentForm::SecondMoments);
             still_loads.push(chain.load(i, &at_rest));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
@@ -212,10 +216,10 @@ impl<'a, S: Scalar> Composite<'a, S> {
             let force = both(&drift.force, &push.force);
             let moment = both(&drift.moment, &push.moment);
             wrenches.push(Wrench { force, moment });
-            motions.push(before.next(link, &self.at[i], &rates[i], &accelerations[i], spin));
-        }
-        let own_wrench = |i: usize| wrenches[i].clone();
-        let loads = chain.loads(self.at, own_wrench, exerted, |i| still_loads[i].clone());
+            before.next(link, &self.at[i], &rates[i], &accelerations[i], spin)
+        });
+        let wrench = |i: usize| wrenches[i].clone();
+        let loads = chain.loads(self.at, wrench, exerted, |i| still_loads[i].clone());
         chain.with_base(loads, |body| {
             let whole = self.base.as_ref().unwrap_or(body);
             base.wrench(whole, MomentForm::SecondMoments)
@@ -273,7 +277,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         later: Vec<JointEffect<S, WRENCHES, VECTORS>>,
         mut enter: impl FnMut([usize; 2], &[Twist<S>; TWISTS], &JointEffect<S, WRENCHES, VECTORS>),
     ) {
-        let (chain, at) = (self.chain, self.at);
+        let chain = self.chain;
         for (k, mut effect) in later.into_iter().enumerate() {
             enter([k, k], &earlier[k], &effect);
             match travel {
@@ -282,10 +286,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
                         let Some(i) = chain.links[next].parent else {
                             continue;
                         };
-                        let (link, turn) = (&chain.links[next], &at[next]);
-                        effect.wrenches =
-                            (effect.wrenches).map(|wrench| chain.to_previous(next, at, &wrench));
-                        effect.vectors = effect.vectors.map(|vector| link.outward(turn, &vector));
+                        effect = effect.carried(self, next);
                         enter([i, k], &earlier[i], &effect);
                     }
                 }
@@ -313,8 +314,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
 }
 
 fn slid<S: Scalar>(body: &MomentBody<S>, acceleration: &Vector<S>) -> Wrench<S> {
-    Wrench {
-        force: scaled(&body.mass, acceleration),
-        moment: cross(&body.first, acceleration),
-    }
+    let force = scaled(&body.mass, acceleration);
+    let moment = cross(&body.first, acceleration);
+    Wrench { force, moment }
 }

@@ -4,7 +4,7 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder, JointEffect};
-use super::recursion::{AccelerationForm, LinkMotion, MomentForm, Motions};
+use super::recursion::{AccelerationForm, LinkMotion, MomentForm};
 use super::{ChainLink, Displacement, MomentBody, Rotation};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
@@ -15,9 +15,9 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct Slopes<S> {
     /// ∂τ/∂q
-    pub position: Vec<Vec<S>>,
+    pub position: Matrix<S>,
     /// ∂τ/∂q̇
-    pub velocity: Vec<Vec<S>>,
+    pub velocity: Matrix<S>,
 }
 
 /// ∫ V dm and ∫ V rᵀ dm, row by row, of bodies in motion, V the velocity of the point r.
@@ -44,7 +44,7 @@ impl<S: Scalar> Composite<'_, S> {
     /// Returns ∂τ/∂q and ∂τ/∂q̇ of all coordinates. Of a base that floats the first is as it moves in
     /// its axes, velocities kept.
     pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
-        let (joints, flow) = self.own_slopes_to(qd, qdd);
+        let (joints, flow) = self.joint_slopes(qd, qdd);
         let n = joints.len();
         let [position, velocity] = [zero_matrix(n), zero_matrix(n)];
         let mut slopes = Slopes { position, velocity };
@@ -83,21 +83,15 @@ impl<S: Scalar> Composite<'_, S> {
         }
     }
 
-    /// Returns each joint's contribution by itself.
-    pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<JointSlopes<S>> {
-        self.own_slopes_to(qd, qdd).0
-    }
-
-    /// Returns the slopes, and the flow of all bodies where it arrives at the base. That a base moves
+    /// Returns each joint's contribution, and the flow of all bodies at the base. That a base moves
     /// along has no effect but on its acceleration: velocities are those of one that only turns.
-    fn own_slopes_to(&self, qd: &[S], qdd: &[S]) -> (Vec<JointSlopes<S>>, Flow<S>) {
+    pub(super) fn joint_slopes(&self, qd: &[S], qdd: &[S]) -> (Vec<JointSlopes<S>>, Flow<S>) {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, chain.base_turning(qd), qd);
-        let Motions { links: motions, .. } =
-            chain.motions(self.at, qd, qdd, AccelerationForm::Column);
+        let moving = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
         let whole = |i: usize, outer: Option<(Flow<S>, Wrench<S>)>| {
             let (flow, load) = outer.unwrap_or_else(|| (Flow::nothing(), Wrench::zero()));
-            let (velocity, motion, body) = (&velocities[i], &motions[i], &self.bodies[i]);
+            let (velocity, motion, body) = (&velocities[i], &moving.links[i], &self.bodies[i]);
             let link = &chain.links[i];
             let flow = flow.with(&Flow::of(&link.body, velocity));
             let load = load.with(&motion.wrench(&link.body, MomentForm::SecondMoments));
@@ -107,9 +101,8 @@ impl<S: Scalar> Composite<'_, S> {
             let [first, second] = &drift;
             let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
             let turned = load.turned(&twist);
-            let damping = flow
-                .of_turn(&twist.turn)
-                .with(&inertial(body, &first.doubled()));
+            let turning = flow.of_turn(&twist.turn);
+            let damping = turning.with(&inertial(body, &first.doubled()));
             let joint = JointSlopes {
                 push,
                 swing: flow.swing(link),
@@ -132,7 +125,7 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     /// Returns C of all coordinates, by composite momenta.
-    pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
+    pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Matrix<S> {
         let (earlier, later, flow) = self.velocity_parts(qd);
         let of_base = self.base.as_ref().map(|body| (body, later.clone()));
         let mut matrix = zero_matrix(later.len());
@@ -155,20 +148,15 @@ impl<S: Scalar> Composite<'_, S> {
         let velocities = chain.velocities(self.at, chain.base_turning(qd), qd);
         let whole = |i: usize, outer: Option<Flow<S>>| {
             let link = &chain.links[i];
-            let flow = outer
-                .unwrap_or_else(Flow::nothing)
-                .with(&Flow::of(&link.body, &velocities[i]));
+            let outer = outer.unwrap_or_else(Flow::nothing);
+            let flow = outer.with(&Flow::of(&link.body, &velocities[i]));
             let rate = rate(link, &velocities[i]);
             let push = self.momentum(i);
             let twist = self.twist(i, i);
-            let felt = flow
-                .half_of_turn(&twist.turn)
-                .with(&inertial(&self.bodies[i], &rate));
-            let acting = JointEffect {
-                wrenches: [felt, push],
-                vectors: [flow.half_swing(link)],
-            };
-            (flow, ([twist, rate], acting))
+            let turning = flow.half_of_turn(&twist.turn);
+            let felt = turning.with(&inertial(&self.bodies[i], &rate));
+            let (wrenches, vectors) = ([felt, push], [flow.half_swing(link)]);
+            (flow, ([twist, rate], JointEffect { wrenches, vectors }))
         };
         let back = |i: usize, flow: Flow<S>| flow.carried(&chain.links[i], &self.at[i]);
         let (joints, arrived) = chain.inward(whole, back, Flow::with);
@@ -191,10 +179,7 @@ pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>) -> Twist
             turn: across_z(&velocity.turn),
             shift: across_z(&velocity.shift),
         },
-        JointKind::Prismatic => Twist {
-            shift: cross(&velocity.turn, &link.axis),
-            ..Twist::rest()
-        },
+        JointKind::Prismatic => Twist::of_joint(link.kind, cross(&velocity.turn, &link.axis)),
     }
 }
 
@@ -213,10 +198,7 @@ fn drift<S: Scalar>(
             let turn = motion.u[2].clone();
             Twist { turn, shift }
         }
-        JointKind::Prismatic => Twist {
-            shift: motion.u_times(&link.axis),
-            ..Twist::rest()
-        },
+        JointKind::Prismatic => Twist::of_joint(link.kind, motion.u_times(&link.axis)),
     };
     [first, second]
 }
@@ -242,10 +224,8 @@ fn traced<S: Scalar>(m: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
 
 impl<S: Scalar> Flow<S> {
     pub(super) fn nothing() -> Self {
-        Flow {
-            momentum: zero_vector(),
-            moment: three(|_| zero_vector()),
-        }
+        let (momentum, moment) = (zero_vector(), three(|_| zero_vector()));
+        Flow { momentum, moment }
     }
 
     /// Returns V = v + ω × r over one body: ∫ V dm = m v + ω × s and ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
@@ -253,17 +233,15 @@ impl<S: Scalar> Flow<S> {
         let (omega, origin) = (&velocity.turn, &velocity.shift);
         let columns = body.second.rows().map(|column| cross(omega, &column));
         let entry = |r: usize, c: usize| plus(&times(&origin[r], &body.first[c]), &columns[c][r]);
-        Flow {
-            momentum: sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
-            moment: three(|r| three(|c| entry(r, c))),
-        }
+        let momentum = sum(&scaled(&body.mass, origin), &cross(omega, &body.first));
+        let moment = three(|r| three(|c| entry(r, c)));
+        Flow { momentum, moment }
     }
 
     pub(super) fn with(&self, other: &Flow<S>) -> Self {
-        Flow {
-            momentum: sum(&self.momentum, &other.momentum),
-            moment: three(|row| sum(&self.moment[row], &other.moment[row])),
-        }
+        let momentum = sum(&self.momentum, &other.momentum);
+        let moment = three(|row| sum(&self.moment[row], &other.moment[row]));
+        Flow { momentum, moment }
     }
 
     /// Returns them in the frame before, r from its origin: R (∫ V rᵀ dm) Rᵀ + (R ∫ V dm) pᵀ.
@@ -275,10 +253,8 @@ impl<S: Scalar> Flow<S> {
         let columns = [0, 1, 2].map(column);
         let lever = link.lever(at);
         let entry = |r: usize, c: usize| plus(&columns[c][r], &times(&momentum[r], &lever[c]));
-        Flow {
-            moment: three(|r| three(|c| entry(r, c))),
-            momentum,
-        }
+        let moment = three(|r| three(|c| entry(r, c)));
+        Flow { momentum, moment }
     }
 
     /// Returns 2 ∫ (α × V) dm = 2 α × ∫ V dm, and its moment 2 (tr(M) α − M α), M = ∫ V rᵀ dm.
@@ -295,10 +271,9 @@ impl<S: Scalar> Flow<S> {
     /// Returns ∫ V dm, and its moment ∫ r × V dm.
     pub(super) fn wrench(&self) -> Wrench<S> {
         let m = &self.moment;
-        Wrench {
-            force: self.momentum.clone(),
-            moment: [(2, 1), (0, 2), (1, 0)].map(|(v, r)| minus(&m[v][r], &m[r][v])),
-        }
+        let force = self.momentum.clone();
+        let moment = [(2, 1), (0, 2), (1, 0)].map(|(v, r)| minus(&m[v][r], &m[r][v]));
+        Wrench { force, moment }
     }
 
     /// Returns ∫ V × (t + α × r) dm = ∫ V dm × t + tr(M) α − Mᵀ α.

@@ -10,15 +10,13 @@ use super::{Chain, MomentBody};
 use crate::equations::BASE_COORDINATES;
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
+use crate::robot::JointKind::{Prismatic, Revolute};
 use crate::scalar::{Divide, Scalar};
 
 impl<S> Chain<S> {
     /// Returns how many coordinates are those of a base that floats: six, or none.
     pub fn base_coordinates(&self) -> usize {
-        match self.base {
-            Some(_) => BASE_COORDINATES,
-            None => 0,
-        }
+        self.base.as_ref().map_or(0, |_| BASE_COORDINATES)
     }
 
     /// Returns the number of coordinates of a velocity.
@@ -32,24 +30,12 @@ impl<S> Chain<S> {
     }
 }
 
-fn parts<S: Scalar>(values: &[S]) -> [Vector<S>; 2] {
-    [0, 3].map(|from| three(|i| values[from + i].clone()))
-}
-
 /// Returns the linear, then the angular units.
 pub(super) fn unit_twists<S: Scalar>() -> [Twist<S>; BASE_COORDINATES] {
     core::array::from_fn(|k| {
         let unit = three(|i| if i == k % 3 { S::one() } else { S::zero() });
-        match k < 3 {
-            true => Twist {
-                shift: unit,
-                ..Twist::rest()
-            },
-            false => Twist {
-                turn: unit,
-                ..Twist::rest()
-            },
-        }
+        let kind = if k < 3 { Prismatic } else { Revolute };
+        Twist::of_joint(kind, unit)
     })
 }
 
@@ -137,101 +123,53 @@ impl<S: Divide> Chain<S> {
     }
 }
 
-/// A matrix over the coordinates of a base, and those of the joints.
-pub(super) struct Borders<S> {
-    /// 6×6
-    pub(super) base: Vec<Vec<S>>,
-    /// 6×n
-    pub(super) rows: Vec<Vec<S>>,
-    /// n×6
-    pub(super) columns: Vec<Vec<S>>,
-}
-
-impl<S: Scalar> Borders<S> {
-    /// Returns the matrix of all coordinates, from that of the joints.
-    pub(super) fn around(self, joints: Vec<Vec<S>>) -> Vec<Vec<S>> {
-        let base = self.base.into_iter().zip(self.rows);
-        let below = self.columns.into_iter().zip(joints);
-        base.chain(below)
-            .map(|(left, right)| [left, right].concat())
-            .collect()
-    }
-}
-
 impl<S: Scalar> Composite<'_, S> {
-    /// Carries what joint k does to the base.
-    pub(super) fn seen_from_base<const WRENCHES: usize, const VECTORS: usize>(
-        &self,
-        k: usize,
-        mut acting: JointEffect<S, WRENCHES, VECTORS>,
-    ) -> JointEffect<S, WRENCHES, VECTORS> {
-        for i in self.chain.way(k) {
-            let link = &self.chain.links[i];
-            acting.wrenches =
-                (acting.wrenches).map(|wrench| self.chain.to_previous(i, self.at, &wrench));
-            acting.vectors = acting
-                .vectors
-                .map(|vector| link.outward(&self.at[i], &vector));
-        }
-        acting
-    }
-
-    /// Returns the coupling of base and joints: `felt` has the wrenches on the base by
-    /// each joint, and by unit twists of the base `base` returns that on itself, `to_joint` the load
-    /// of a joint.
-    fn borders(
+    /// Returns a matrix over all coordinates, from that of the joints: `felt` has the wrenches on the
+    /// base by each joint, and by unit twists of the base `base` returns that on itself, `to_joint`
+    /// the load of a joint.
+    fn bordered(
         &self,
         base: impl Fn(&Twist<S>) -> Wrench<S>,
         felt: &[Wrench<S>],
         to_joint: impl Fn(usize, usize, &Twist<S>) -> S,
-    ) -> Borders<S> {
+        joints: Matrix<S>,
+    ) -> Matrix<S> {
         let chain = self.chain;
         let n = felt.len();
         let units = unit_twists();
         let in_metres = |k: usize, value: S| chain.coordinate_in_metres(k, value);
-        let base_rows: Vec<Vec<S>> = (units.iter().enumerate())
-            .map(|(k, unit)| chain.on_base(&base(unit)).map(|x| in_metres(k, x)).to_vec())
-            .collect();
-        let arrived: Vec<Vec<S>> = (felt.iter().enumerate())
-            .map(|(k, wrench)| chain.on_base(wrench).map(|x| chain.rescaled(k, x)).to_vec())
-            .collect();
-        let rows = match n {
-            0 => alloc::vec![Vec::new(); BASE_COORDINATES],
-            _ => columns_of(&arrived),
-        };
-        Borders {
-            base: columns_of(&base_rows),
-            rows,
-            columns: matrix(n, BASE_COORDINATES, |i, k| {
-                let load = chain.rescaled(i, to_joint(i, k, &units[k]));
-                in_metres(k, load)
-            }),
-        }
+        let base_row = |k: usize| chain.on_base(&base(&units[k])).map(|x| in_metres(k, x));
+        let base_rows: Vec<[S; 6]> = (0..BASE_COORDINATES).map(base_row).collect();
+        let arrived_row = |k: usize| chain.on_base(&felt[k]).map(|x| chain.rescaled(k, x));
+        let arrived: Vec<[S; 6]> = (0..n).map(arrived_row).collect();
+        let corner = matrix(BASE_COORDINATES, BASE_COORDINATES, |i, k| {
+            base_rows[k][i].clone()
+        });
+        let rows = matrix(BASE_COORDINATES, n, |i, k| arrived[k][i].clone());
+        let columns = matrix(n, BASE_COORDINATES, |i, k| {
+            let load = chain.rescaled(i, to_joint(i, k, &units[k]));
+            in_metres(k, load)
+        });
+        let above = corner.into_iter().zip(rows);
+        let halves = above.chain(columns.into_iter().zip(joints));
+        halves.map(|(left, right)| [left, right].concat()).collect()
     }
 
     /// Returns D of all coordinates, from that of the joints.
-    pub(super) fn bordered_inertia(
-        &self,
-        body: &MomentBody<S>,
-        joints: Vec<Vec<S>>,
-    ) -> Vec<Vec<S>> {
+    pub(super) fn bordered_inertia(&self, body: &MomentBody<S>, joints: Matrix<S>) -> Matrix<S> {
         let pushes: Vec<Wrench<S>> = (0..joints.len()).map(|k| self.push_on_base(k)).collect();
         let base = |unit: &Twist<S>| inertial(body, unit);
         let along = |i: usize, k: usize, _: &Twist<S>| {
             let Wrench { force, moment } = &pushes[i];
             [force, moment][k / 3][k % 3].clone()
         };
-        self.borders(base, &pushes, along).around(joints)
+        self.bordered(base, &pushes, along, joints)
     }
 
     /// Returns the wrench of a unit acceleration of joint k about the base's origin.
     pub(super) fn push_on_base(&self, k: usize) -> Wrench<S> {
-        let wrenches = [self.momentum(k)];
-        let vectors = [];
-        let [push] = self
-            .seen_from_base(k, JointEffect { wrenches, vectors })
-            .wrenches;
-        push
+        let before = |push: Wrench<S>, i: usize| self.chain.to_previous(i, self.at, &push);
+        self.chain.way(k).fold(self.momentum(k), before)
     }
 
     /// Returns slopes of all coordinates, from those of the joints. With a = v̇ + ω × v − g nothing else
@@ -251,33 +189,28 @@ impl<S: Scalar> Composite<'_, S> {
             turn: cross(&turn, &unit.turn),
             shift: sum(&cross(&turn, &unit.shift), &cross(&unit.turn, &shift)),
         };
-        let lifted = |unit: &Twist<S>| Twist {
-            shift: cross(&unit.turn, &chain.gravity),
-            ..Twist::rest()
-        };
+        let lifted =
+            |unit: &Twist<S>| Twist::of_joint(Prismatic, cross(&unit.turn, &chain.gravity));
         let felt = |of: usize| -> Vec<Wrench<S>> {
-            later
-                .iter()
-                .map(|effect| effect.wrenches[of].clone())
-                .collect()
+            let effects = later.iter();
+            effects.map(|effect| effect.wrenches[of].clone()).collect()
         };
-        let position = self.borders(
+        let position = self.bordered(
             |unit| inertial(body, &lifted(unit)),
             &felt(0),
             |i, _, unit| later[i].wrenches[2].along(&lifted(unit)),
+            joints.position,
         );
-        let velocity = self.borders(
+        let velocity = self.bordered(
             |unit| (flow.of_turn(&unit.turn)).with(&inertial(body, &changed(unit))),
             &felt(1),
             |i, _, unit| {
                 let ([_, _, push], [swing]) = (&later[i].wrenches, &later[i].vectors);
                 plus(&dot(swing, &unit.turn), &push.along(&changed(unit)))
             },
+            joints.velocity,
         );
-        Slopes {
-            position: position.around(joints.position),
-            velocity: velocity.around(joints.velocity),
-        }
+        Slopes { position, velocity }
     }
 
     /// Returns C of all coordinates, from that of the joints and from what each does to its composite:
@@ -287,8 +220,8 @@ impl<S: Scalar> Composite<'_, S> {
         (body, flow): (&MomentBody<S>, &Flow<S>),
         qd: &[S],
         later: Vec<JointEffect<S, 2, 1>>,
-        joints: Vec<Vec<S>>,
-    ) -> Vec<Vec<S>> {
+        joints: Matrix<S>,
+    ) -> Matrix<S> {
         let later = self.all_seen_from_base(later);
         let flow = self.with_flow_of_base(flow, qd);
         let velocity = self.chain.base_turning(qd);
@@ -296,25 +229,24 @@ impl<S: Scalar> Composite<'_, S> {
             let felt = flow.half_of_turn(&unit.turn);
             felt.with(&inertial(body, &velocity.cross(unit)))
         };
-        let felt: Vec<Wrench<S>> = later
-            .iter()
-            .map(|effect| effect.wrenches[0].clone())
-            .collect();
+        let effects = later.iter();
+        let felt: Vec<_> = effects.map(|effect| effect.wrenches[0].clone()).collect();
         let along = |i: usize, _: usize, unit: &Twist<S>| {
             let ([_, push], [swing]) = (&later[i].wrenches, &later[i].vectors);
             plus(&dot(swing, &unit.turn), &push.along(&velocity.cross(unit)))
         };
-        self.borders(base, &felt, along).around(joints)
+        self.bordered(base, &felt, along, joints)
     }
 
     fn all_seen_from_base<const WRENCHES: usize, const VECTORS: usize>(
         &self,
         later: Vec<JointEffect<S, WRENCHES, VECTORS>>,
     ) -> Vec<JointEffect<S, WRENCHES, VECTORS>> {
-        let later = later.into_iter().enumerate();
-        later
-            .map(|(k, effect)| self.seen_from_base(k, effect))
-            .collect()
+        let seen_from_base = |(k, effect): (usize, JointEffect<S, WRENCHES, VECTORS>)| {
+            let way = self.chain.way(k);
+            way.fold(effect, |effect, i| effect.carried(self, i))
+        };
+        later.into_iter().enumerate().map(seen_from_base).collect()
     }
 
     fn with_flow_of_base(&self, flow: &Flow<S>, qd: &[S]) -> Flow<S> {

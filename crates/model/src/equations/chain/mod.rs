@@ -26,7 +26,7 @@ use alloc::vec::Vec;
 pub use body::MomentBody;
 pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
-pub use pose::Displacement;
+pub use pose::{Displacement, Posture};
 pub use regressor::{Column, Probe, Probed};
 pub use regrouping::{LinkRegrouping, MetricChain, Regrouping};
 pub use skeleton::{Segment, Skeleton};
@@ -108,23 +108,19 @@ impl<S: Scalar> Chain<S> {
         core::iter::successors(Some(from), |&i| self.links[i].parent)
     }
 
-    /// Walks from the base to the tips: returns what follows for each link from what the one before
-    /// has.
-    fn outward<T>(&self, base: T, next: impl Fn(usize, &T) -> T) -> Vec<T> {
+    /// Walks from the base to the tips: returns what follows for each link from what its carrier has.
+    fn outward<T>(&self, base: T, mut next: impl FnMut(usize, &T) -> T) -> Vec<T> {
         let mut results: Vec<T> = Vec::with_capacity(self.links.len());
         for (i, link) in self.links.iter().enumerate() {
-            results.push(next(
-                i,
-                link.parent.map_or(&base, |parent| &results[parent]),
-            ));
+            let before = link.parent.map_or(&base, |parent| &results[parent]);
+            results.push(next(i, before));
         }
         results
     }
 
-    /// Walks from the tips to the base. `whole` returns what a link has together with all that it
-    /// carries, given what arrives from there, and an entry for the link; `back` brings it to the
-    /// link before, and `with` adds what arrives there. Returns the entries in the order of the
-    /// links, and what arrives at the base.
+    /// Walks from the tips to the base. `whole` returns what a link has with all that it carries, from
+    /// what arrives there, and its entry; `back` brings it to the link before, `with` adds what
+    /// arrives there. Returns the entries in the order of the links, and what arrives at the base.
     fn inward<T, J>(
         &self,
         mut whole: impl FnMut(usize, Option<T>) -> (T, J),
@@ -174,36 +170,30 @@ impl<S: Scalar> Chain<S> {
 impl<S> Chain<S> {
     /// Returns every parameter through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Chain<T> {
-        self.with_each(&mut f)
-    }
-
-    fn with_each<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Chain<T> {
-        let gravity = self.gravity.each_ref().map(&mut *f);
-        let base = self.base.as_ref().map(|body| body.map(&mut *f));
+        // Compiled once for each scalar.
+        let mut f: &mut dyn FnMut(&S) -> T = &mut f;
+        let gravity = self.gravity.each_ref().map(&mut f);
+        let base = self.base.as_ref().map(|body| body.map(&mut f));
         let links = self.links.iter().map(|link| ChainLink {
             parent: link.parent,
             kind: link.kind,
-            rotation: link
-                .rotation
-                .each_ref()
-                .map(|row| row.each_ref().map(&mut *f)),
-            offset: link.offset.each_ref().map(&mut *f),
-            axis: link.axis.each_ref().map(&mut *f),
-            theta: link.theta.map(&mut *f),
-            body: link.body.map(&mut *f),
-            probes: Probe::each(&link.probes, |body| body.map(&mut *f)),
-            free: link.free.each_ref().map(&mut *f),
+            rotation: three(|row| link.rotation[row].each_ref().map(&mut f)),
+            offset: link.offset.each_ref().map(&mut f),
+            axis: link.axis.each_ref().map(&mut f),
+            theta: link.theta.map(&mut f),
+            body: link.body.map(&mut f),
+            probes: Probe::each(&link.probes, |body| body.map(&mut f)),
+            free: link.free.each_ref().map(&mut f),
             armature: f(&link.armature),
-            friction: link.friction.map(&mut *f),
+            friction: link.friction.map(&mut f),
             spins_freely: link.spins_freely,
             axes: link.axes,
         });
-        let links = links.collect();
         Chain {
             gravity,
             base,
-            base_probes: Probe::each(&self.base_probes, |body| body.map(&mut *f)),
-            links,
+            links: links.collect(),
+            base_probes: Probe::each(&self.base_probes, |body| body.map(&mut f)),
             per_unit: f(&self.per_unit),
             columns: self.columns,
         }
@@ -247,10 +237,9 @@ impl<S: Scalar> ChainLink<S> {
     /// Returns a twist of frame i−1 as seen from frame i.
     fn twist_outward(&self, at: &Displacement<S>, twist: &Twist<S>) -> Twist<S> {
         let lever = self.lever(at);
-        Twist {
-            turn: self.inward(at, &twist.turn),
-            shift: self.inward(at, &sum(&twist.shift, &cross(&twist.turn, &lever))),
-        }
+        let turn = self.inward(at, &twist.turn);
+        let shift = self.inward(at, &sum(&twist.shift, &cross(&twist.turn, &lever)));
+        Twist { turn, shift }
     }
 
     fn axis_before(&self) -> Vector<S> {
@@ -275,8 +264,7 @@ fn turn<S: Scalar>(angle: &SinCosPair<S>, [i, j]: [usize; 2]) -> Rotation<S> {
 
 fn product<S: Scalar>(a: &Rotation<S>, b: &Rotation<S>) -> Rotation<S> {
     let columns = transposed(b);
-    a.each_ref()
-        .map(|row| columns.each_ref().map(|column| dot(row, column)))
+    three(|i| three(|k| dot(&a[i], &columns[k])))
 }
 
 fn apply<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::derivatives::inertial;
-use super::{Chain, ChainLink, Displacement, MomentBody};
+use super::{Chain, ChainLink, Displacement, MomentBody, Posture};
 use crate::equations::matrix::*;
 use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
@@ -34,12 +34,7 @@ fn energy_of<S: Scalar>(body: &MomentBody<S>, velocity: &Twist<S>) -> S {
 
 impl<S: Scalar> Chain<S> {
     /// Returns the velocities of the links, from that of the base.
-    pub(super) fn velocities(
-        &self,
-        at: &[Displacement<S>],
-        base: Twist<S>,
-        qd: &[S],
-    ) -> Vec<Twist<S>> {
+    pub(super) fn velocities(&self, at: &Posture<S>, base: Twist<S>, qd: &[S]) -> Vec<Twist<S>> {
         let rates = self.rates(qd);
         self.outward(base, |i, before: &Twist<S>| {
             before.next(&self.links[i], &at[i], &rates[i])
@@ -47,7 +42,7 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// Returns T, link by link, and what the rotors have.
-    pub fn kinetic_energy(&self, at: &[Displacement<S>], qd: &[S]) -> S {
+    pub fn kinetic_energy(&self, at: &Posture<S>, qd: &[S]) -> S {
         let base = self.base_twist(qd);
         let mut energy = match &self.base {
             None => S::zero(),
@@ -65,11 +60,10 @@ impl<S: Scalar> Chain<S> {
 
     /// Returns D q̇ and ∂T/∂q, each an entry a coordinate.
     ///
-    /// Turning all that follows joint k by itself leaves it as it is but for
-    /// what arrives from before: its velocity changes by V × Δ_k, V being that
-    /// of the joint's frame, and T by the composite momentum along that. The momentum of the whole
-    /// stands still in the world, and turns the other way in the axes of a base that floats.
-    pub fn momentum(&self, at: &[Displacement<S>], qd: &[S]) -> [Vec<S>; 2] {
+    /// Turning all that follows joint k by itself leaves it as it is but for what arrives from
+    /// before: its velocity changes by V × Δ_k, V that of the joint's frame, and T by the composite
+    /// momentum along that. The momentum of the whole turns the other way in a floating base's axes.
+    pub fn momentum(&self, at: &Posture<S>, qd: &[S]) -> [Vec<S>; 2] {
         let base = self.base_twist(qd);
         let velocities = self.velocities(at, base.clone(), qd);
         let joint_rates = self.of_joints(qd);

@@ -4,11 +4,11 @@
 
 use alloc::vec::Vec;
 
-use super::{Chain, Displacement, Form};
+use super::{Chain, Form, Posture};
 use crate::equations::BASE_COORDINATES;
 use crate::equations::factor::picked;
 use crate::equations::forward::solved;
-use crate::equations::matrix::{minus, plus, sums, zero_vector};
+use crate::equations::matrix::*;
 use crate::scalar::{Divide, Scalar};
 
 /// A joint and the next one that moves about a parallel axis.
@@ -85,7 +85,7 @@ impl<S: Divide> Chain<S> {
         }
         let joints = BASE_COORDINATES..d.len();
         let order: Vec<usize> = [3, 4, 5, 0, 1, 2].into_iter().chain(joints).collect();
-        let rows: Vec<Vec<S>> = order.iter().map(|&i| picked(&d[i], &order)).collect();
+        let rows: Matrix<S> = order.iter().map(|&i| picked(&d[i], &order)).collect();
         let [bias, tau] = [bias, tau].map(|values| picked(values, &order));
         let moves: Vec<bool> = picked(moves, &order);
         let accelerations = solved_in_pairs(&pairs, &rows, [&bias, &tau], &moves);
@@ -96,7 +96,7 @@ impl<S: Divide> Chain<S> {
     /// Returns q̈ under τ, zero of joints that do not move, from the recursion that is shortened.
     pub fn forward_dynamics(
         &self,
-        (at, d): (&[Displacement<S>], &[Vec<S>]),
+        (at, d): (&Posture<S>, &[Vec<S>]),
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
         form: Form,
@@ -110,7 +110,7 @@ impl<S: Divide> Chain<S> {
     /// Returns τ(a) and a, the accelerations that shorten the recursion.
     pub fn reference_load(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         qd: &[S],
         moves: &[bool],
         form: Form,
@@ -169,17 +169,13 @@ mod tests {
     fn solves_the_equation_of_the_joints_that_move() {
         let chain = chain();
         let pairs = |moves: &[bool]| {
-            let pairs = chain
-                .pairs(moves)
-                .into_iter()
-                .map(|pair| (pair.before, pair.after, pair.opposite));
-            pairs.collect::<Vec<_>>()
+            let pairs = chain.pairs(moves).into_iter();
+            let tuples = pairs.map(|pair| (pair.before, pair.after, pair.opposite));
+            tuples.collect::<Vec<_>>()
         };
         let all_joints = [true; 5];
-        assert_eq!(
-            pairs(&all_joints),
-            [(0, 1, false), (1, 2, true), (2, 3, false)]
-        );
+        let expected = [(0, 1, false), (1, 2, true), (2, 3, false)];
+        assert_eq!(pairs(&all_joints), expected);
         let some = [true, false, true, true, true];
         assert_eq!(pairs(&some), [(0, 2, true), (2, 3, false)]);
         let mut points = Points::new(0x9a12);

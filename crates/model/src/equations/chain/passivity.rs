@@ -5,7 +5,7 @@
 use alloc::vec::Vec;
 
 use super::recursion::{LinkMotion, MomentForm, Motions, from_column, from_rates};
-use super::{Chain, ChainLink, Displacement};
+use super::{Chain, ChainLink, Displacement, Posture};
 use crate::equations::matrix::*;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -21,13 +21,8 @@ struct Mixed<S> {
 }
 
 impl<S: Scalar> Mixed<S> {
-    fn next(
-        &self,
-        link: &ChainLink<S>,
-        at: &Displacement<S>,
-        [rate, half, acceleration]: [&S; 3],
-    ) -> Self {
-        let motion = &self.motion;
+    fn next(&self, link: &ChainLink<S>, at: &Displacement<S>, rates: [&S; 3]) -> Self {
+        let (motion, [rate, half, acceleration]) = (&self.motion, rates);
         let carried = sum(&motion.acceleration, &motion.u_times(&link.lever(at)));
         if link.kind == JointKind::Prismatic {
             let axis = &link.axis;
@@ -64,18 +59,16 @@ impl<S: Scalar> Mixed<S> {
 
 /// Returns the symmetric products of ω and ν, from ν / 2.
 fn mixed<S: Scalar>(omega: &Vector<S>, half_nu: &Vector<S>) -> impl Fn(usize, usize) -> S {
-    |i, j| match i == j {
-        true => twice(&times(&omega[i], &half_nu[i])),
-        false => plus(
-            &times(&omega[i], &half_nu[j]),
-            &times(&omega[j], &half_nu[i]),
-        ),
+    let product = move |i: usize, j: usize| times(&omega[i], &half_nu[j]);
+    move |i, j| match i == j {
+        true => twice(&product(i, i)),
+        false => plus(&product(i, j), &product(j, i)),
     }
 }
 
 impl<S: Scalar> Chain<S> {
     /// Returns D a + C v + c + (b + F∘r)∘v, an entry a coordinate.
-    pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
+    pub fn passivity(&self, at: &Posture<S>, qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
         let drive = |i: usize| self.drive(i, v, a);
         let exerted = zero_vector();
@@ -83,12 +76,7 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// U and v̇ are bilinear in both velocities, and wrenches linear in these for any body.
-    pub(super) fn mixed_motions(
-        &self,
-        at: &[Displacement<S>],
-        qd: &[S],
-        [v, a]: [&[S]; 2],
-    ) -> Motions<S> {
+    pub(super) fn mixed_motions(&self, at: &Posture<S>, qd: &[S], [v, a]: [&[S]; 2]) -> Motions<S> {
         let halves: Vec<S> = v.iter().map(halved).collect();
         let [rates, halved_rates, accelerations] = [qd, &halves, a].map(|rates| self.rates(rates));
         let base = self.mixed_base([qd, &halves, v, a]);
@@ -109,21 +97,13 @@ impl<S: Scalar> Chain<S> {
             0 => Vec::new(),
             _ => [&v[..3], &qd[3..6]].concat(),
         };
-        let LinkMotion {
-            omega,
-            omega_dot,
-            acceleration,
-            ..
-        } = self.base_motion([&rates, a], &self.gravity);
+        let mut motion = self.base_motion([&rates, a], &self.gravity);
+        let omega = core::mem::replace(&mut motion.omega, zero_vector());
         let half_nu = self.base_twist(halves).turn;
-        let omega_dot = sum(&omega_dot, &cross(&omega, &half_nu));
+        motion.omega_dot = sum(&motion.omega_dot, &cross(&omega, &half_nu));
+        motion.u = from_rates(mixed(&omega, &half_nu), &motion.omega_dot);
         Mixed {
-            motion: LinkMotion {
-                omega: zero_vector(),
-                u: from_rates(mixed(&omega, &half_nu), &omega_dot),
-                omega_dot,
-                acceleration,
-            },
+            motion,
             omega,
             half_nu,
         }

@@ -19,6 +19,9 @@ pub enum Displacement<S> {
     Slide(S),
 }
 
+/// The displacements of a chain's joints.
+pub type Posture<S> = [Displacement<S>];
+
 #[derive(Clone, Copy)]
 struct FramePlacement {
     group: usize,
@@ -36,13 +39,10 @@ impl<S: Scalar> Chain<S> {
             is_followed[first] = true;
         }
         for group in &groups {
-            let free = group
-                .iter()
-                .enumerate()
-                .filter(|(_, (i, _))| !is_followed[*i]);
-            for (before, &(i, _)) in free.filter(|(_, (i, _))| !self.links[*i].spins_freely) {
-                let index = before + 1;
-                freedoms[i] = [-(index as i32), (group.len() - index) as i32];
+            for (index, &(i, _)) in (1..).zip(group) {
+                if !is_followed[i] && !self.links[i].spins_freely {
+                    freedoms[i] = [-(index as i32), (group.len() - index) as i32];
+                }
             }
         }
         freedoms
@@ -82,21 +82,17 @@ impl<S: Scalar> Chain<S> {
         let (groups, freedoms) = (self.parallel(), self.freedoms());
         let mut places = vec![None; self.links.len()];
         for (group, links) in groups.iter().enumerate() {
-            for (before, &(i, _)) in links.iter().enumerate() {
-                let index = before + 1;
+            for (index, &(i, _)) in (1..).zip(links) {
                 places[i] = Some(FramePlacement { group, index });
             }
         }
-        let angles: Vec<Option<SinCosPair<S>>> = self
-            .links
-            .iter()
-            .zip(position)
-            .map(|(link, q)| match q {
-                JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
-                JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
-                JointPosition::Prismatic(_) => None,
-            })
-            .collect();
+        let links = self.links.iter().zip(position);
+        let thetas = links.map(|(link, q)| match q {
+            JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
+            JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
+            JointPosition::Prismatic(_) => None,
+        });
+        let angles: Vec<Option<SinCosPair<S>>> = thetas.collect();
         let angle = |&(j, opposite): &(usize, bool)| {
             let angle = angles[j].clone()?;
             Some(if opposite { angle.reversed() } else { angle })
@@ -143,12 +139,8 @@ impl<S: Scalar> Chain<S> {
             if let Some(turn) = between(target, place.index, place) {
                 link.turn_bodies(&turn);
             }
-            let from = match before {
-                Some((carrier_target, carrier_place)) if carrier_place.group == place.group => {
-                    carrier_target
-                }
-                _ => 0,
-            };
+            let in_group = before.filter(|(_, carrier_place)| carrier_place.group == place.group);
+            let from = in_group.map_or(0, |(carrier_target, _)| carrier_target);
             let turn = between(from, target, place).unwrap_or_else(SinCosPair::straight);
             at.push(Displacement::Turn(turn));
             turns[i] = Some((target, place));
@@ -166,12 +158,9 @@ impl<S: Scalar> ChainLink<S> {
 
 /// R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π) it turns the other way.
 pub(super) fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
-    let along = &rotation[2][2];
-    if along.is_one() {
-        Some(false)
-    } else if along.neg().is_one() {
-        Some(true)
-    } else {
-        None
+    match &rotation[2][2] {
+        along if along.is_one() => Some(false),
+        along if along.neg().is_one() => Some(true),
+        _ => None,
     }
 }

@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Chain, ChainLink, Displacement, MomentBody};
+use super::{Chain, ChainLink, Displacement, MomentBody, Posture};
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::robot::JointKind;
@@ -66,10 +66,9 @@ impl<S: Scalar> LinkMotion<S> {
                 let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
                 let axis = &link.axis;
                 let coriolis = cross(&scaled(&twice(rate), &self.omega), axis);
-                LinkMotion {
-                    acceleration: sum(&sum(&carried, &coriolis), &scaled(acceleration, axis)),
-                    ..self.clone()
-                }
+                let mut next = self.clone();
+                next.acceleration = sum(&sum(&carried, &coriolis), &scaled(acceleration, axis));
+                next
             }
             JointKind::Revolute => {
                 let carried = dot(&link.axis_before(), &self.omega_dot);
@@ -154,24 +153,21 @@ pub(super) fn from_column<S: Scalar>(
 ) -> (Vector<S>, [Vector<S>; 3]) {
     let (xz, yz, xy) = (product(0, 2), product(1, 2), product(0, 1));
     let (xx, zz) = (product(0, 0), product(2, 2));
+    let [x, y, z] = &column;
     // U_13 = ω_x ω_z + ω̇_y and U_23 = ω_y ω_z − ω̇_x.
-    let omega_dot = [
-        minus(&yz, &column[1]),
-        minus(&column[0], &xz),
-        along.clone(),
-    ];
+    let omega_dot = [minus(&yz, y), minus(x, &xz), along.clone()];
     // U_33 = −(ω_x² + ω_y²), so −ω_y² = U_33 + ω_x².
-    let minus_yy = plus(&column[2], &xx);
+    let minus_yy = plus(z, &xx);
     let u = [
         [
             minus(&minus_yy, &zz),
             plus(&xy, along),
-            minus(&twice(&xz), &column[0]),
+            minus(&twice(&xz), x),
         ],
         [
             minus(&xy, along),
             negative(&plus(&xx, &zz)),
-            minus(&twice(&yz), &column[1]),
+            minus(&twice(&yz), y),
         ],
         column,
     ];
@@ -207,7 +203,7 @@ impl<S: Scalar> Chain<S> {
     /// Returns τ, an entry a coordinate: of a base that floats the wrench on it comes first.
     pub fn inverse_dynamics(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         qd: &[S],
         qdd: &[S],
         spin: AccelerationForm,
@@ -221,7 +217,7 @@ impl<S: Scalar> Chain<S> {
     /// The last link exerts a moment on something else; `drive` is added for each joint.
     pub(super) fn torques(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         motions: &Motions<S>,
         couple: MomentForm,
         exerted: &Vector<S>,
@@ -235,7 +231,7 @@ impl<S: Scalar> Chain<S> {
     /// Returns the torques of each link's wrench, and the wrench that arrives at the base.
     pub(super) fn loads(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         wrench: impl Fn(usize) -> Wrench<S>,
         exerted: &Vector<S>,
         drive: impl Fn(usize) -> S,
@@ -257,7 +253,7 @@ impl<S: Scalar> Chain<S> {
 
     pub(super) fn motions(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         qd: &[S],
         qdd: &[S],
         spin: AccelerationForm,
@@ -278,12 +274,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    pub(super) fn to_previous(
-        &self,
-        i: usize,
-        at: &[Displacement<S>],
-        wrench: &Wrench<S>,
-    ) -> Wrench<S> {
+    pub(super) fn to_previous(&self, i: usize, at: &Posture<S>, wrench: &Wrench<S>) -> Wrench<S> {
         let (link, at) = (&self.links[i], &at[i]);
         wrench.carried(|v| link.outward(at, v), &link.lever(at))
     }
@@ -299,7 +290,7 @@ impl<S: Divide> Chain<S> {
     /// a is zero of joints that slide, and of those that do not move.
     pub(super) fn reference_motion(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         qd: &[S],
         moves: &[bool],
         spin: AccelerationForm,
@@ -314,26 +305,22 @@ impl<S: Divide> Chain<S> {
                 base
             }
         };
-        let mut links: Vec<LinkMotion<S>> = Vec::with_capacity(self.links.len());
-        for (i, link) in self.links.iter().enumerate() {
-            let before = link.parent.map_or(&base, |parent| &links[parent]);
-            let (next, acceleration) = match link.kind {
+        let links = self.outward(base.clone(), |i, before: &LinkMotion<S>| {
+            let link = &self.links[i];
+            match link.kind {
                 JointKind::Revolute if moves[i] => {
                     let [x, y, _] = link.inward(&at[i], &before.omega);
                     let along = times(&x, &y);
                     let carried = dot(&link.axis_before(), &before.omega_dot);
-                    let acceleration = minus(&along, &carried);
-                    let next = before.next_along(link, &at[i], &rates[i], &along, spin);
-                    (next, acceleration)
+                    accelerations.push(minus(&along, &carried));
+                    before.next_along(link, &at[i], &rates[i], &along, spin)
                 }
                 _ => {
-                    let rest = S::zero();
-                    (before.next(link, &at[i], &rates[i], &rest, spin), rest)
+                    accelerations.push(S::zero());
+                    before.next(link, &at[i], &rates[i], &S::zero(), spin)
                 }
-            };
-            links.push(next);
-            accelerations.push(acceleration);
-        }
+            }
+        });
         ReferenceMotion {
             accelerations,
             motions: Motions { base, links },
@@ -343,14 +330,11 @@ impl<S: Divide> Chain<S> {
 
 impl<S: Scalar> Chain<S> {
     /// Returns loads with what rotors and friction take of each joint.
-    pub fn driven(&self, loads: Vec<S>, qd: &[S], accelerations: &[S]) -> Vec<S> {
-        let first = self.base_coordinates();
-        let loads = loads.into_iter().enumerate();
-        let driven = loads.map(|(k, load)| match k.checked_sub(first) {
-            None => load,
-            Some(joint) => plus(&load, &self.drive(joint, qd, accelerations)),
-        });
-        driven.collect()
+    pub fn driven(&self, mut loads: Vec<S>, qd: &[S], accelerations: &[S]) -> Vec<S> {
+        for (joint, load) in loads.iter_mut().skip(self.base_coordinates()).enumerate() {
+            *load = plus(load, &self.drive(joint, qd, accelerations));
+        }
+        loads
     }
 
     pub(crate) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {

@@ -7,10 +7,8 @@ use alloc::vec::Vec;
 use super::composite::CompositeOrder;
 use super::floating::unit_twists;
 use super::recursion::{AccelerationForm, LinkMotion, MomentForm, Motions};
-use super::{Chain, Displacement, MomentBody, Rotation, Segment, Skeleton};
-use crate::equations::matrix::{
-    Vector, cross, difference, dot, plus, sum, times, zero_vector, zeros,
-};
+use super::{Chain, MomentBody, Posture, Rotation, Segment, Skeleton};
+use crate::equations::matrix::*;
 use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
 
@@ -113,8 +111,7 @@ impl<S: Scalar> Skeleton<S> {
                 }
             }
         }
-        let probes = core::mem::take(&mut self.base_probes);
-        for probe in &probes {
+        for probe in core::mem::take(&mut self.base_probes) {
             if let (Some(base), Probed::Body(unit), Some(value)) =
                 (&mut self.base, &probe.of, values.get(probe.column))
             {
@@ -134,13 +131,6 @@ struct Way<S> {
     centres: Vec<Centre<S>>,
 }
 
-impl<S> Default for Way<S> {
-    fn default() -> Self {
-        let (twists, centres) = (Vec::new(), Vec::new());
-        Way { twists, centres }
-    }
-}
-
 /// A point where the axes of several joints meet.
 #[derive(Clone)]
 struct Centre<S> {
@@ -153,11 +143,11 @@ impl<S: Scalar> Chain<S> {
     /// outward alone, or by wrenches about points where axes meet.
     pub fn regressor(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         qd: &[S],
         qdd: &[S],
         travel: CompositeOrder,
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         let motions = self.motions(at, qd, qdd, AccelerationForm::Column);
         self.powers(at, &motions, [qd, qdd], travel)
     }
@@ -165,26 +155,26 @@ impl<S: Scalar> Chain<S> {
     /// Computes the regressor of D a + C v + c + b∘v.
     pub fn passivity_regressor(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         qd: &[S],
         [v, a]: [&[S]; 2],
         travel: CompositeOrder,
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
         self.powers(at, &motions, [v, a], travel)
     }
 
     fn powers(
         &self,
-        at: &[Displacement<S>],
+        at: &Posture<S>,
         motions: &Motions<S>,
         [rates, accelerations]: [&[S]; 2],
         travel: CompositeOrder,
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         let first = self.base_coordinates();
-        let coordinates = self.coordinates();
-        let mut rows: Vec<Vec<S>> = (0..coordinates).map(|_| zeros(self.columns)).collect();
-        let mut base = Way::default();
+        let mut rows: Matrix<S> = alloc::vec![zeros(self.columns); self.coordinates()];
+        let (twists, centres) = (Vec::new(), Vec::new());
+        let mut base = Way { twists, centres };
         if self.base.is_some() {
             base.twists.extend(unit_twists().into_iter().enumerate());
             if travel == CompositeOrder::Inward {
@@ -192,7 +182,7 @@ impl<S: Scalar> Chain<S> {
             }
         }
         let enter =
-            |rows: &mut Vec<Vec<S>>, way: &Way<S>, motion: &LinkMotion<S>, probe: &Probe<S>| {
+            |rows: &mut Matrix<S>, way: &Way<S>, motion: &LinkMotion<S>, probe: &Probe<S>| {
                 let Probed::Body(body) = &probe.of else {
                     return;
                 };

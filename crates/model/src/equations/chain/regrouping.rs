@@ -22,9 +22,8 @@ pub struct LinkRegrouping<S> {
     pub second: S,
     /// True if a prismatic link keeps its second moments.
     pub keep_seconds: bool,
-    /// By how many joints with parallel axes the frame turns more than its
-    /// link (less if negative), as far as it can ([`Chain::freedoms`]): no
-    /// parameter moves, only the axes in which the link is seen change.
+    /// By how many joints with parallel axes the frame turns more than its link, as far as it can
+    /// ([`Chain::freedoms`]): no parameter moves, only the axes in which the link is seen change.
     pub axes: i32,
 }
 
@@ -98,22 +97,12 @@ impl<S: Scalar> MetricChain<S> {
         known: Option<(&Self, usize)>,
     ) -> Self {
         let n = skeleton.links.len();
-        let parents: Vec<Option<usize>> = skeleton
-            .links
-            .iter()
-            .map(|segment| segment.link.parent)
-            .collect();
-        let mut kept: Vec<Option<(&ChainLink<S>, &MomentBody<S>)>> = match known {
-            Some((known, _)) => known
-                .chain
-                .links
-                .iter()
-                .zip(&known.arriving)
-                .map(Some)
-                .collect(),
-            None => alloc::vec![None; n],
-        };
-        if let Some((_, at)) = known {
+        let segments = skeleton.links.iter();
+        let parents: Vec<Option<usize>> = segments.map(|segment| segment.link.parent).collect();
+        let mut kept: Vec<Option<(&ChainLink<S>, &MomentBody<S>)>> = alloc::vec![None; n];
+        if let Some((known, at)) = known {
+            let links = known.chain.links.iter();
+            kept = links.zip(&known.arriving).map(Some).collect();
             for i in (at..n).filter(|&i| i == at || parents[i] == Some(at)) {
                 kept[i] = None;
             }
@@ -207,11 +196,7 @@ impl<S: Scalar> ChainLink<S> {
     fn regroup(&mut self, keep: &LinkRegrouping<S>) -> MomentBody<S> {
         let moving = self.moving(&self.body, keep);
         let body = &self.body;
-        self.free = [
-            body.mass.clone(),
-            body.first[2].clone(),
-            body.second.zz.clone(),
-        ];
+        self.free = [&body.mass, &body.first[2], &body.second.zz].map(S::clone);
         self.body = body.with(&moving.negated());
         self.arriving(&moving)
     }

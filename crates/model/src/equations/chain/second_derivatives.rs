@@ -14,22 +14,22 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct SecondDerivatives<S> {
     /// By q and q, symmetric.
-    pub position: Vec<Vec<S>>,
+    pub position: Matrix<S>,
     /// By q, a row each, and q̇.
-    pub mixed: Vec<Vec<S>>,
+    pub mixed: Matrix<S>,
     /// By q̇ and q̇, symmetric.
-    pub velocity: Vec<Vec<S>>,
+    pub velocity: Matrix<S>,
     /// By q̈, or τ, a row each, and q.
-    pub driven: Vec<Vec<S>>,
+    pub driven: Matrix<S>,
 }
 
 /// Δ, Δ′, Δ̇ and Δ̈ of a joint: the twists that wrenches of later joints have power on.
-type EarlierBends<S> = [Twist<S>; 4];
+type Earlier<S> = [Twist<S>; 4];
 
 /// The change of a joint's composite body as the joint turns and is driven: of the force ∫ a dm, of
 /// the momentum ∫ ℓ dm of Λ, of the force as the joint's velocity grows and as its acceleration does;
 /// of 2 ∫ v × ℓ dm, and of the same as its velocity grows.
-type LaterBends<S> = JointEffect<S, 4, 2>;
+type Later<S> = JointEffect<S, 4, 2>;
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns the second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
@@ -49,14 +49,10 @@ impl<S: Scalar> Composite<'_, S> {
         self.each_pair(travel, &earlier, later, |joints, earlier, later| {
             derivatives.enter(joints, earlier, later);
         });
-        let matrices = [
-            &mut derivatives.position,
-            &mut derivatives.mixed,
-            &mut derivatives.velocity,
-        ];
-        for matrix in matrices.into_iter().chain([&mut derivatives.driven]) {
-            self.matrix_in_metres(matrix);
-        }
+        self.matrix_in_metres(&mut derivatives.position);
+        self.matrix_in_metres(&mut derivatives.mixed);
+        self.matrix_in_metres(&mut derivatives.velocity);
+        self.matrix_in_metres(&mut derivatives.driven);
         for (i, link) in self.chain.links.iter().enumerate() {
             let bent = times(&multiplier[i], &link.friction.curvature(&qd[i]));
             derivatives.velocity[i][i] = plus(&derivatives.velocity[i][i], &bent);
@@ -64,12 +60,9 @@ impl<S: Scalar> Composite<'_, S> {
         derivatives
     }
 
-    fn pairs(
-        &self,
-        [qd, qdd, multiplier]: [&[S]; 3],
-    ) -> (Vec<EarlierBends<S>>, Vec<LaterBends<S>>) {
+    fn pairs(&self, [qd, qdd, multiplier]: [&[S]; 3]) -> (Vec<Earlier<S>>, Vec<Later<S>>) {
         let chain = self.chain;
-        let joints = self.own_slopes(qd, qdd);
+        let (joints, _) = self.joint_slopes(qd, qdd);
         let velocities = chain.velocities(self.at, Twist::rest(), qd);
         let displacements = chain.velocities(self.at, Twist::rest(), multiplier);
         let whole = |i: usize, outer: Option<(Flow<S>, Vector<S>)>| {
@@ -96,7 +89,7 @@ impl<S: Scalar> Composite<'_, S> {
 }
 
 impl<S: Scalar> SecondDerivatives<S> {
-    fn enter(&mut self, [i, k]: [usize; 2], earlier: &EarlierBends<S>, later: &LaterBends<S>) {
+    fn enter(&mut self, [i, k]: [usize; 2], earlier: &Earlier<S>, later: &Later<S>) {
         let [twist, virtual_twist, first, second] = earlier;
         let [force, momentum, damping, push] = &later.wrenches;
         let [couple, swing] = &later.vectors;
@@ -117,11 +110,11 @@ impl<S: Scalar> SecondDerivatives<S> {
 fn later<S: Scalar>(
     body: &MomentBody<S>,
     joint: &JointSlopes<S>,
-    [twist, virtual_twist, first, _]: &EarlierBends<S>,
+    [twist, virtual_twist, first, _]: &Earlier<S>,
     flow: &Flow<S>,
     couple: &Vector<S>,
     swing: Vector<S>,
-) -> LaterBends<S> {
+) -> Later<S> {
     let turned = flow.wrench().turned(twist);
     let within = difference(&joint.flow.across(virtual_twist), &flow.across(first));
     let changed = sum(&cross(&twist.turn, couple), &within);

@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use super::body::entry;
 use super::composite::{Composite, CompositeOrder};
 use super::recursion::ReferenceMotion;
-use super::{Chain, ChainLink, Displacement, Form, MomentBody, apply, apply_transposed};
+use super::{Chain, ChainLink, Displacement, Form, MomentBody, Posture, apply, apply_transposed};
 use crate::equations::factor::{Factor, picked, placed};
 use crate::equations::forward::free;
 use crate::equations::matrix::*;
@@ -31,15 +31,11 @@ impl<S: Scalar> Chain<S> {
 
     /// Finds the joints at the base whose axes meet: the height of each frame over the point.
     pub(super) fn shoulder(&self) -> Option<Vec<S>> {
-        let most = self
-            .links
-            .len()
-            .checked_sub(BEYOND)
-            .filter(|_| self.is_serial())?;
-        let candidates = (0..FEWEST).filter_map(|origin| self.through(origin));
-        let mut wide = candidates.filter(|heights| (FEWEST..=most).contains(&heights.len()));
+        let count = self.links.len();
+        let most = count.checked_sub(BEYOND).filter(|_| self.is_serial())?;
+        let mut candidates = (0..FEWEST).filter_map(|origin| self.through(origin));
         // Through two points that are not one there is one axis at most.
-        wide.next()
+        candidates.find(|heights| (FEWEST..=most).contains(&heights.len()))
     }
 
     /// Turning about an axis leaves what is on it where it is.
@@ -71,7 +67,7 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// Returns the origin of the first frame beyond, seen from the point in the axes of that frame.
-    fn lever_beyond(&self, heights: &[S], at: &[Displacement<S>]) -> Vector<S> {
+    fn lever_beyond(&self, heights: &[S], at: &Posture<S>) -> Vector<S> {
         let first = heights.len();
         let along = [S::zero(), S::zero(), heights[first - 1].clone()];
         let (link, at) = (&self.links[first], &at[first]);
@@ -141,8 +137,7 @@ impl<S: Divide> Composite<'_, S> {
         let mut hinged = HingedBody { inertia, moment };
         hinged = hinged.carried(&chain.links[first], &self.at[first]);
 
-        let mut solved: Vec<Option<HingeSolution<S>>> = Vec::with_capacity(first);
-        for (i, link) in chain.links[..first].iter().enumerate().rev() {
+        let solved = from_hand(chain.links[..first].iter().enumerate(), |(i, link)| {
             hinged = hinged.with(&link.body, &heights[i], &wrench(i));
             let mut solution = None;
             if moves[i] {
@@ -152,18 +147,13 @@ impl<S: Divide> Composite<'_, S> {
                 (hinged, solution) = (rest, Some(joint));
             }
             hinged = hinged.carried(link, &self.at[i]);
-            solved.push(solution);
-        }
-        solved.reverse();
+            solution
+        });
         let mut hinge_accelerations = zeros(n);
         let mut omega = zero_vector();
         for (i, joint) in solved.iter().enumerate() {
             omega = chain.links[i].inward(&self.at[i], &omega);
-            if let Some(HingeSolution {
-                acceleration,
-                shares,
-            }) = joint
-            {
+            if let Some((acceleration, shares)) = joint {
                 let [x, y] = [0, 1].map(|axis| times(&shares[axis], &omega[axis]));
                 let turn_acceleration = minus(&minus(acceleration, &x), &y);
                 hinge_accelerations[i] = minus(&turn_acceleration, &times(&shares[2], &omega[2]));
@@ -176,11 +166,8 @@ impl<S: Divide> Composite<'_, S> {
         let omega = chain.links[first].inward(&self.at[first], &omega);
         let known = omega.into_iter().chain(rest.iter().cloned()).collect();
         let all_accelerations = beyond.substituted(known);
-        let mut accelerations = placed(
-            hinge_accelerations,
-            &joints,
-            all_accelerations[3..].iter().cloned(),
-        );
+        let of_joints = all_accelerations[3..].iter().cloned();
+        let mut accelerations = placed(hinge_accelerations, &joints, of_joints);
         if is_taken_back {
             accelerations[first] = minus(&accelerations[first], &all_accelerations[2]);
         }
@@ -194,10 +181,10 @@ impl<S: Divide> Composite<'_, S> {
         lever: &Vector<S>,
         moves: &[bool],
         travel: CompositeOrder,
-    ) -> Vec<Vec<S>> {
+    ) -> Matrix<S> {
         let chain = self.chain;
         let tensor = self.bodies[first].moved(lever).tensor().rows();
-        let mut lower: Vec<Vec<S>> = (0..3).map(|i| tensor[i][..=i].to_vec()).collect();
+        let mut lower: Matrix<S> = (0..3).map(|i| tensor[i][..=i].to_vec()).collect();
         for k in (first..chain.links.len()).filter(|&k| moves[k]) {
             let momentum = self.momentum(k);
             let mut wrench = momentum.clone();
@@ -228,7 +215,7 @@ impl<S: Divide> Composite<'_, S> {
 
 /// Returns it where the first joint beyond takes back what ω̇ has along its axis, as in
 /// `parallel`: then all beyond moves without a turn, and that is forces on a lever.
-fn taken_back<S: Scalar>(mut matrix: Vec<Vec<S>>) -> Vec<Vec<S>> {
+fn taken_back<S: Scalar>(mut matrix: Matrix<S>) -> Matrix<S> {
     let rows = matrix[2].iter().zip(&matrix[3]);
     matrix[2] = rows.map(|(x, y)| minus(x, y)).collect();
     for row in &mut matrix {
@@ -248,20 +235,11 @@ struct HingedBody<S> {
     moment: Vector<S>,
 }
 
-struct HingeSolution<S> {
-    /// (τ − p_z) / D
-    acceleration: S,
-    /// I_xz / D, I_yz / D, I_zz / D
-    shares: Vector<S>,
-}
-
 impl<S: Scalar> HingedBody<S> {
     fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         // A tensor turns as second moments do.
-        let body = MomentBody {
-            second: self.inertia.clone(),
-            ..MomentBody::zero()
-        };
+        let mut body = MomentBody::zero();
+        body.second = self.inertia.clone();
         let inertia = match at {
             Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation).second,
             Displacement::Slide(_) => body.second,
@@ -283,7 +261,8 @@ impl<S: Scalar> HingedBody<S> {
 
 impl<S: Divide> HingedBody<S> {
     /// Eliminates a joint about z with this rotor and torque; the first that moves divides alone.
-    fn eliminated(self, rotor: &S, torque: &S, is_first: bool) -> (Self, HingeSolution<S>) {
+    /// Returns (τ − p_z) / D, and I_xz / D, I_yz / D and I_zz / D, with the rest.
+    fn eliminated(&self, rotor: &S, torque: &S, is_first: bool) -> (Self, (S, Vector<S>)) {
         let HingedBody { inertia, moment } = self;
         let pivot = plus(&inertia.zz, rotor);
         let inverse = over(&S::one(), &pivot);
@@ -314,13 +293,6 @@ impl<S: Divide> HingedBody<S> {
             true => over(&left, &pivot),
             false => times(&left, &inverse),
         };
-        let shares = [x, y, z];
-        (
-            HingedBody { inertia, moment },
-            HingeSolution {
-                acceleration,
-                shares,
-            },
-        )
+        (HingedBody { inertia, moment }, (acceleration, [x, y, z]))
     }
 }

@@ -68,24 +68,18 @@ impl<S: Scalar> Skeleton<S> {
             if Some(joint) <= floating {
                 return base.clone();
             }
-            let link = &arm.links[joint];
-            let SegmentFrame {
-                carrier,
-                mut turned,
-                mut moved,
-                merged,
-            } = before.clone();
+            let (link, mut frame) = (&arm.links[joint], before.clone());
             let twist = match &link.beta {
                 None => turn(&link.alpha, ABOUT_X),
                 Some(beta) => product(&turn(&link.alpha, ABOUT_X), &turn(beta, ABOUT_Y)),
             };
             let along = [link.a.clone(), S::zero(), S::zero()];
             if let Some(place) = &link.place {
-                moved = sum(&moved, &apply(&turned, &place.origin));
-                turned = product(&turned, &transposed(&place.axes));
+                frame.moved = sum(&frame.moved, &apply(&frame.turned, &place.origin));
+                frame.turned = product(&frame.turned, &transposed(&place.axes));
             } else if arm.convention == Convention::Modified {
-                moved = sum(&moved, &apply(&turned, &along));
-                turned = product(&turned, &twist);
+                frame.moved = sum(&frame.moved, &apply(&frame.turned, &along));
+                frame.turned = product(&frame.turned, &twist);
             }
             let (rest, reach) = match arm.convention {
                 Convention::Standard => (twist, along),
@@ -94,11 +88,12 @@ impl<S: Scalar> Skeleton<S> {
             let body = MomentBody::of(link);
             if let Some(Some(lock)) = locks.get(joint) {
                 let DhVariables { theta, d } = link.at(lock);
-                moved = sum(&moved, &apply(&turned, &[S::zero(), S::zero(), d]));
-                turned = product(&turned, &turn(&theta, ABOUT_Z));
-                moved = sum(&moved, &apply(&turned, &reach));
-                turned = product(&turned, &rest);
-                let carrying = match carrier {
+                let step = apply(&frame.turned, &[S::zero(), S::zero(), d]);
+                frame.moved = sum(&frame.moved, &step);
+                frame.turned = product(&frame.turned, &turn(&theta, ABOUT_Z));
+                frame.moved = sum(&frame.moved, &apply(&frame.turned, &reach));
+                frame.turned = product(&frame.turned, &rest);
+                let carrying = match frame.carrier {
                     None => base_body.as_mut().map(|body| (body, &mut base_probes)),
                     Some(carrier) => {
                         let ChainLink { body, probes, .. } = &mut links[carrier].link;
@@ -106,24 +101,20 @@ impl<S: Scalar> Skeleton<S> {
                     }
                 };
                 if let Some((carrying, others)) = carrying {
-                    *carrying = carrying.with(&body.carried(&turned, &moved));
+                    *carrying = carrying.with(&body.carried(&frame.turned, &frame.moved));
                     // A drive that is locked feels nothing.
-                    let joint_probes = probes(columns, joint, &turned, &moved);
+                    let joint_probes = probes(columns, joint, &frame.turned, &frame.moved);
                     others.extend(joint_probes.filter(Probe::is_body));
                 }
-                return SegmentFrame {
-                    carrier,
-                    turned,
-                    moved,
-                    merged: true,
-                };
+                frame.merged = true;
+                return frame;
             }
             let slide = [S::zero(), S::zero(), link.d.clone()];
             let mut chain_link = ChainLink {
-                parent: carrier,
+                parent: frame.carrier,
                 kind: link.kind,
                 rotation: identity(),
-                offset: moved.clone(),
+                offset: frame.moved.clone(),
                 axis: unit_z(),
                 theta: link.theta.clone(),
                 body: MomentBody::zero(),
@@ -136,38 +127,32 @@ impl<S: Scalar> Skeleton<S> {
             };
             match link.kind {
                 JointKind::Revolute => {
-                    chain_link.rotation = turned;
-                    if merged && carrier.is_some() {
+                    chain_link.rotation = frame.turned;
+                    if frame.merged && frame.carrier.is_some() {
                         chain_link.absorb_turn();
                     }
-                    moved = sum(&slide, &reach);
-                    turned = rest;
+                    (frame.moved, frame.turned) = (sum(&slide, &reach), rest);
                 }
                 JointKind::Prismatic => {
-                    chain_link.axis = apply(&turned, &unit_z());
-                    chain_link.offset = sum(&moved, &apply(&turned, &slide));
-                    let turn = product(&turned, &turn(&link.theta, ABOUT_Z));
+                    chain_link.axis = apply(&frame.turned, &unit_z());
+                    chain_link.offset = sum(&frame.moved, &apply(&frame.turned, &slide));
+                    let turn = product(&frame.turned, &turn(&link.theta, ABOUT_Z));
                     chain_link.theta = SinCosPair::straight();
-                    moved = apply(&turn, &reach);
-                    turned = product(&turn, &rest);
+                    frame.moved = apply(&turn, &reach);
+                    frame.turned = product(&turn, &rest);
                 }
             }
-            chain_link.body = body.carried(&turned, &moved);
-            chain_link
-                .probes
-                .extend(probes(columns, joint, &turned, &moved));
+            chain_link.body = body.carried(&frame.turned, &frame.moved);
+            let joint_probes = probes(columns, joint, &frame.turned, &frame.moved);
+            chain_link.probes.extend(joint_probes);
+            (frame.carrier, frame.merged) = (Some(links.len()), false);
             links.push(Segment {
                 joint,
                 d: link.d.clone(),
-                dh: (turned.clone(), moved.clone()),
+                dh: (frame.turned.clone(), frame.moved.clone()),
                 link: chain_link,
             });
-            SegmentFrame {
-                carrier: Some(links.len() - 1),
-                turned,
-                moved,
-                merged: false,
-            }
+            frame
         });
         Skeleton {
             gravity: arm.gravity.clone(),

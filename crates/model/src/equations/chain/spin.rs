@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
 use super::recursion::ReferenceMotion;
-use super::{Chain, ChainLink, Displacement, Form, MomentBody, Unknowns};
+use super::{Chain, ChainLink, Displacement, Form, MomentBody, Posture, Unknowns};
 use crate::equations::SinCosPair;
 use crate::equations::forward::inverted;
 use crate::equations::matrix::*;
@@ -80,7 +80,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         })
     }
 
-    fn at(&self) -> &[Displacement<S>] {
+    fn at(&self) -> &Posture<S> {
         &self.whole.at[..self.chain.links.len()]
     }
 
@@ -90,9 +90,8 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         (0..last).map(along).collect()
     }
 
-    /// Returns the rest of the couple of the joint before on the last link, in the axes that
-    /// this turns from, and e: of the frame before ω′, of the joint its rate and what of
-    /// its torque friction leaves.
+    /// Returns the rest of the couple of the joint before on the last link, in the axes that this
+    /// turns from, and e: of ω′ before, the joint's rate and what of its torque friction leaves.
     fn couple(&self, [x, y, z]: &Vector<S>, rate: &S, left: &S) -> (Vector<S>, S) {
         let second = &self.link.second;
         // I_δ ω′: of Σ half the difference, and Σ_xy.
@@ -145,13 +144,9 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                 let bias = match form.composite_h {
                     false => chain.torques(at, motions, form.couple, &couple, drive),
                     true => {
-                        let rest = zeros(last);
-                        composite
-                            .torques(&chain.gravity, before, &rest, form.spin, &couple)
-                            .iter()
-                            .enumerate()
-                            .map(|(i, torque)| plus(torque, &drive(i)))
-                            .collect()
+                        let (gravity, rest) = (&chain.gravity, zeros(last));
+                        let loads = composite.torques(gravity, before, &rest, form.spin, &couple);
+                        chain.driven(loads, qd, reference)
                     }
                 };
                 let d = composite.inertia(form.travel);
@@ -171,7 +166,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
     }
 
     /// Returns D⁻¹; zero in the rows and columns of joints that do not move.
-    pub fn inertia_inverse(&self, moves: &[bool], travel: CompositeOrder) -> Vec<Vec<S>> {
+    pub fn inertia_inverse(&self, moves: &[bool], travel: CompositeOrder) -> Matrix<S> {
         let last = self.chain.links.len();
         let d = Composite::new(&self.chain, self.at()).inertia(travel);
         let inner = inverted(&d, &moves[..last]);

@@ -3,7 +3,6 @@
 use alloc::vec::Vec;
 
 use super::{FrameMotion, with_drive};
-use crate::equations::arm::Step;
 use crate::equations::matrix::*;
 use crate::equations::screws::Wrench;
 use crate::equations::{Arm, At, Link};
@@ -98,9 +97,8 @@ fn bodies<S: Scalar>(
         com: zero_vector(),
         motion: base.clone(),
     };
-    let steps: Vec<Step<S>> = arm.steps(at).collect();
     arm.outward(&base, |i, before: &BaseLink<S>| {
-        let (step, link) = (&steps[i], &arm.links[i]);
+        let (step, link) = (arm.step(i, at), &arm.links[i]);
         // The step's own origin is p_i*: no difference of two large positions.
         let frame = step.append(&Columns::turned(before.rotation.clone()));
         let body = BaseLink {

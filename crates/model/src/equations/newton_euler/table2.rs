@@ -17,9 +17,8 @@ pub enum Moment {
     AsPrinted,
     /// ⁱR_{i+1} n_{i+1} + p_i* × (ⁱR_{i+1} f_{i+1}): fewer operations, and never less accurate.
     RotateFirst,
-    /// As [`Moment::RotateFirst`], and ω × (I ω) from the differences of the
-    /// moments of inertia: about the axis of a round link it is nothing, where
-    /// the products as printed leave I_xx/I_zz times their rounding.
+    /// As [`Moment::RotateFirst`], and ω × (I ω) from differences of moments of inertia: about the axis
+    /// of a round link it is nothing, where the products leave I_xx/I_zz times their rounding.
     Differences,
 }
 
@@ -92,10 +91,8 @@ fn loads<S: Scalar>(
     arm.inward(|i, arrived: Vec<(usize, Wrench<S>)>| {
         let (link, motion) = (&arm.links[i], &motions[i]);
         // f_{i+1} of each link that it carries, in its axes.
-        let forces: Vec<Vector<S>> = arrived
-            .iter()
-            .map(|(next, wrench)| steps[*next].to_previous(&wrench.force))
-            .collect();
+        let force = |(next, wrench): &(usize, Wrench<S>)| steps[*next].to_previous(&wrench.force);
+        let forces: Vec<Vector<S>> = arrived.iter().map(force).collect();
         let inertial_force = scaled(&link.mass, &motion.acceleration_at(&link.com));
         let inertial_moment = motion.euler(link, moment);
 
@@ -153,17 +150,14 @@ pub(in crate::equations) fn last_motion<S: Scalar>(
 }
 
 fn motions<S: Scalar>(arm: &Arm<S>, at: &At<S>, qd: &[S], qdd: &[S]) -> Vec<FrameMotion<S>> {
-    let steps: Vec<Step<S>> = arm.steps(at).collect();
-    arm.outward(
-        &FrameMotion::of_base(&arm.gravity),
-        |i, before: &FrameMotion<S>| {
-            let step = &steps[i];
-            match step.convention {
-                Convention::Standard => standard(step, before, &qd[i], &qdd[i]),
-                Convention::Modified => modified(step, before, &qd[i], &qdd[i]),
-            }
-        },
-    )
+    let base = FrameMotion::of_base(&arm.gravity);
+    arm.outward(&base, |i, before: &FrameMotion<S>| {
+        let step = arm.step(i, at);
+        match step.convention {
+            Convention::Standard => standard(&step, before, &qd[i], &qdd[i]),
+            Convention::Modified => modified(&step, before, &qd[i], &qdd[i]),
+        }
+    })
 }
 
 /// The joint moves along z_{i−1}, before the rotation X, and the rows of Table 2 stand as printed.

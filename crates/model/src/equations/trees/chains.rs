@@ -36,54 +36,44 @@ fn compare(arm: &Arm<S>, draw: &mut Draw, round: usize) {
     let composite = Composite::new(&posed, &at);
     for spin in SPINS {
         for couple in COUPLES {
-            let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
-            assert_eq!(
-                fields(&found),
-                fields(&torques),
-                "{round} {spin:?} {couple:?}"
-            );
+            let actual = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
+            agree(&actual, &torques, round, (spin, couple));
         }
         let loads = composite.torques(&posed.gravity, &qd, &qdd, spin, &zero_vector());
-        assert_eq!(
-            fields(&posed.driven(loads, &qd, &qdd)),
-            fields(&torques),
-            "{round} composite"
-        );
+        let actual = posed.driven(loads, &qd, &qdd);
+        agree(&actual, &torques, round, "composite");
     }
     let coriolis = written.coriolis_matrix(arm, &dh, &qd);
     for travel in TRAVELS {
-        assert_eq!(flat(&composite.inertia(travel)), flat(&d), "{round} D");
-        assert_eq!(fields(&composite.gravity(travel)), fields(&c), "{round} c");
-        assert_eq!(
-            flat(&composite.coriolis_matrix(&qd, travel)),
-            flat(&coriolis),
-            "{round} C"
-        );
+        agree(&composite.inertia(travel).concat(), &d.concat(), round, "D");
+        agree(&composite.gravity(travel), &c, round, "c");
+        let actual = composite.coriolis_matrix(&qd, travel).concat();
+        agree(&actual, &coriolis.concat(), round, "C");
     }
     if !arm.floats {
-        let expected = written.christoffel(arm, &dh);
-        for (found, expected) in composite.christoffel().iter().zip(&expected) {
-            assert_eq!(flat(found), flat(expected), "{round} h");
-        }
+        let [actual, expected] = [composite.christoffel(), written.christoffel(arm, &dh)];
+        agree(
+            &actual.concat().concat(),
+            &expected.concat().concat(),
+            round,
+            "h",
+        );
     }
     let momentum = products(&d, &qd);
-    let energy = total(momentum.iter().zip(&qd).map(|(p, q)| times(p, q))).half();
-    assert_eq!(
-        field(&posed.kinetic_energy(&at, &qd)),
-        field(&energy),
-        "{round} T"
-    );
-    let [found, slopes] = posed.momentum(&at, &qd);
-    assert_eq!(fields(&found), fields(&momentum), "{round} p");
+    let energy = product(&momentum, &qd).half();
+    agree(&[posed.kinetic_energy(&at, &qd)], &[energy], round, "T");
+    let [actual, slopes] = posed.momentum(&at, &qd);
+    agree(&actual, &momentum, round, "p");
     // ∂T/∂q = Cᵀ q̇, since Ḋ = C + Cᵀ and Ḋ q̇ − ∂T/∂q = C q̇.
     let expected = products(&columns_of(&coriolis), &qd);
-    assert_eq!(fields(&slopes), fields(&expected), "{round} ∂T/∂q");
-    let wanted = sums(&products(&d, &a), &products(&coriolis, &v));
-    let wanted = sums(&sums(&wanted, &c), &friction(arm, &v));
-    assert_eq!(
-        fields(&posed.passivity(&at, &qd, &v, &a)),
-        fields(&wanted),
-        "{round}"
+    agree(&slopes, &expected, round, "∂T/∂q");
+    let wished = sums(&products(&d, &a), &products(&coriolis, &v));
+    let wanted = sums(&sums(&wished, &c), &friction(arm, &v));
+    agree(
+        &posed.passivity(&at, &qd, &v, &a),
+        &wanted,
+        round,
+        "passivity",
     );
     forward(&posed, &at, [&qd, &qdd, &torques], &d, round);
     derivatives(&chain, position, [&qd, &qdd, &v], round);
@@ -112,22 +102,20 @@ fn locked(arm: &Arm<S>, draw: &mut Draw, position: &Positions, d: &[Vec<S>], rou
 
 fn forward(
     chain: &Chain<S>,
-    at: &[Displacement<S>],
+    at: &Posture<S>,
     [qd, qdd, tau]: [&[S]; 3],
     d: &[Vec<S>],
     round: usize,
 ) {
-    let moves = vec![true; qd.len()];
+    let (moves, form) = (vec![true; qd.len()], form(CompositeOrder::Inward));
     for unknowns in [Unknowns::Joints, Unknowns::AgainstBase] {
-        let form = form(CompositeOrder::Inward);
-        let found = chain.forward_dynamics((at, d), [qd, tau], &moves, form, unknowns);
-        assert_eq!(fields(&found), fields(qdd), "{round} q̈ {unknowns:?}");
+        let actual = chain.forward_dynamics((at, d), [qd, tau], &moves, form, unknowns);
+        agree(&actual, qdd, round, ("q̈", unknowns));
     }
     let composite = Composite::new(chain, at);
     if let Some(tip) = EliminatedTip::new(&composite, &moves) {
-        let form = form(CompositeOrder::Inward);
-        let found = tip.forward_dynamics([qd, tau], &moves, form, Unknowns::Joints);
-        assert_eq!(fields(&found), fields(qdd), "{round} q̈ by the tip");
+        let actual = tip.forward_dynamics([qd, tau], &moves, form, Unknowns::Joints);
+        agree(&actual, qdd, round, "q̈ by the tip");
     }
 }
 
@@ -159,25 +147,16 @@ fn derivatives(chain: &Chain<S>, position: &Positions, [qd, qdd, v]: [&[S]; 3], 
         rates(still.inverse_dynamics(&at_rest, &growing(qd, k), &constants(qdd), spin, couple))
     };
     let power = |slopes: &[Vec<Dual<S>>], k: usize| {
-        let terms = slopes
-            .iter()
-            .zip(v)
-            .map(|(row, v)| row[k].mul(&Dual::constant(*v)));
-        total(terms)
+        let rows = slopes.iter().zip(v);
+        total(rows.map(|(row, v)| row[k].mul(&Dual::constant(*v))))
     };
     let powers = |slopes: &[Vec<Dual<S>>]| rates((0..n).map(|k| power(slopes, k)).collect());
+    let position_slopes = columns(n, by_position);
+    let velocity_slopes = columns(n, by_velocity);
     for travel in TRAVELS {
         let slopes = composite.slopes(qd, qdd, travel);
-        assert_eq!(
-            flat(&slopes.position),
-            columns(n, by_position),
-            "{round} ∂τ/∂q"
-        );
-        assert_eq!(
-            flat(&slopes.velocity),
-            columns(n, by_velocity),
-            "{round} ∂τ/∂q̇"
-        );
+        assert_eq!(flat(&slopes.position), position_slopes, "{round} ∂τ/∂q");
+        assert_eq!(flat(&slopes.velocity), velocity_slopes, "{round} ∂τ/∂q̇");
         if chain.base.is_some() {
             continue;
         }
@@ -196,11 +175,8 @@ fn derivatives(chain: &Chain<S>, position: &Positions, [qd, qdd, v]: [&[S]; 3], 
             let slopes = composite.slopes(&growing(qd, k), &constants(qdd), travel);
             powers(&slopes.velocity)
         };
-        assert_eq!(
-            flat(&second.velocity),
-            columns(n, by_rate),
-            "{round} ∂²/∂q̇²"
-        );
+        let velocity_slopes = columns(n, by_rate);
+        assert_eq!(flat(&second.velocity), velocity_slopes, "{round} ∂²/∂q̇²");
         let driven = |k: usize| {
             let (chain, at) = chain.posed(&moving(position, Some(k)));
             let d = Composite::new(&chain, &at).inertia(travel);
@@ -220,10 +196,7 @@ fn regressors(
     [qd, qdd, v, a]: [&[S]; 4],
     round: usize,
 ) {
-    let mut weights = Points::new(round as u64);
-    let values: Vec<S> = (0..skeleton.columns)
-        .map(|_| Sparse::Value(weights.field()))
-        .collect();
+    let values = Draw(Points::new(round as u64)).values(skeleton.columns);
     let more = skeleton.clone().with_values(&values);
     let plain = Regrouping::base(&more);
     let (heavier, at_heavier) = Chain::new(&more, &plain).posed(position);
@@ -236,13 +209,9 @@ fn regressors(
     for travel in TRAVELS {
         let y = posed.regressor(&at, qd, qdd, travel);
         let torque_sums = sums(&torques, &products(&y, &values));
-        assert_eq!(fields(&torque_sums), fields(&whole), "{round} Y");
+        agree(&torque_sums, &whole, round, "Y");
         let y = posed.passivity_regressor(&at, qd, [v, a], travel);
         let passive_sums = sums(&passive, &products(&y, &values));
-        assert_eq!(
-            fields(&passive_sums),
-            fields(&all_passive),
-            "{round} Y of passivity"
-        );
+        agree(&passive_sums, &all_passive, round, "Y of passivity");
     }
 }

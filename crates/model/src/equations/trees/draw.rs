@@ -43,35 +43,22 @@ impl Draw {
         match self.below(5) {
             0 | 1 => {}
             2 => {
-                let half = SinCosPair {
-                    sin: S::zero(),
-                    cos: S::one().neg(),
-                };
-                pose = pose.turn_x(&half);
+                let (sin, cos) = (S::zero(), S::one().neg());
+                pose = pose.turn_x(&SinCosPair { sin, cos });
             }
             3 => pose = pose.turn_x(&self.angle()),
             _ => pose = pose.turn_x(&self.angle()).turn_y(&self.angle()),
         }
-        Columns {
-            origin: self.vector(),
-            ..pose
-        }
+        pose.origin = self.vector();
+        pose
     }
 
     fn body(&mut self) -> MomentBody<S> {
-        let mut second = Inertia::symmetric(|_, _| S::zero());
-        let [xx, zz] = [self.value(), self.value()];
-        second = Inertia {
-            xx,
-            yy: xx,
-            zz,
-            ..second
-        };
-        let mut body = MomentBody {
-            mass: self.value(),
-            first: [S::zero(), S::zero(), self.constant()],
-            second,
-        };
+        let mut body = MomentBody::zero();
+        [body.second.xx, body.second.zz] = [self.value(), self.value()];
+        body.second.yy = body.second.xx;
+        body.mass = self.value();
+        body.first[2] = self.constant();
         // A quarter are symmetric about z.
         if self.below(4) > 0 {
             body.first = self.vector();
@@ -162,19 +149,11 @@ impl Draw {
     /// Puts links on six others, of which the last carries them.
     pub(super) fn on(&mut self, base: Vec<Link<S>>, limbs: Arm<S>) -> Arm<S> {
         let last = base.len() - 1;
-        let carriers: Vec<usize> = (0..limbs.links.len())
-            .map(|i| {
-                limbs
-                    .carrier(i)
-                    .map_or(last, |carrier| base.len() + carrier)
-            })
-            .collect();
-        let mut arm = Arm {
-            base: None,
-            floats: true,
-            links: base,
-            ..limbs.clone()
-        };
+        let limb_carriers = (0..limbs.links.len()).map(|i| limbs.carrier(i));
+        let places = limb_carriers.map(|carrier| carrier.map_or(last, |i| base.len() + i));
+        let carriers: Vec<usize> = places.collect();
+        let mut arm = limbs.clone();
+        (arm.base, arm.floats, arm.links) = (None, true, base);
         for (link, carrier) in limbs.links.into_iter().zip(carriers) {
             let parent = (carrier + 1 != arm.links.len()).then_some(Parent::Row(carrier));
             arm.links.push(Link { parent, ..link });
@@ -210,34 +189,29 @@ impl Draw {
         let regrouping = self.regrouping(skeleton);
         let mut before = regrouping.clone();
         let at = self.below(skeleton.links.len().max(1) as u64) as usize;
-        let other = self.regrouping(skeleton).links;
-        if let (Some(link), Some(other)) = (before.links.get_mut(at), other.into_iter().nth(at)) {
-            *link = other;
-        } else {
+        let mut other = self.regrouping(skeleton).links;
+        if other.is_empty() {
             return Chain::new(skeleton, &regrouping);
         }
-        let before = MetricChain::new(skeleton, &before);
-        before
-            .changed(skeleton, &regrouping, at)
-            .in_unit(&regrouping)
+        before.links[at] = other.swap_remove(at);
+        let metric = MetricChain::new(skeleton, &before);
+        let changed = metric.changed(skeleton, &regrouping, at);
+        changed.in_unit(&regrouping)
     }
 
     pub(super) fn regrouping(&mut self, skeleton: &Skeleton<S>) -> Regrouping<S> {
-        let links = skeleton
-            .links
-            .iter()
-            .map(|segment| LinkRegrouping {
-                origin: match segment.link.kind {
-                    JointKind::Revolute => [S::zero(), S::zero(), self.constant()],
-                    JointKind::Prismatic => self.vector(),
-                },
-                mass: self.constant(),
-                first: self.constant(),
-                second: self.constant(),
-                keep_seconds: self.below(2) == 0,
-                axes: self.below(5) as i32 - 2,
-            })
-            .collect();
+        let of_segment = |segment: &Segment<S>| LinkRegrouping {
+            origin: match segment.link.kind {
+                JointKind::Revolute => [S::zero(), S::zero(), self.constant()],
+                JointKind::Prismatic => self.vector(),
+            },
+            mass: self.constant(),
+            first: self.constant(),
+            second: self.constant(),
+            keep_seconds: self.below(2) == 0,
+            axes: self.below(5) as i32 - 2,
+        };
+        let links = skeleton.links.iter().map(of_segment).collect();
         let unit = self.value();
         Regrouping {
             links,

@@ -2,6 +2,7 @@
 //! no loss.
 
 use super::*;
+use crate::robot::JointKind::{Prismatic, Revolute};
 
 #[test]
 fn a_floating_base_is_six_joints_anywhere() {
@@ -16,10 +17,7 @@ fn a_floating_base_is_six_joints_anywhere() {
 /// the coordinates: slides along x, y and z, turns about z, x and y.
 fn carriers(body: &Link<S>) -> Vec<Link<S>> {
     let link = |k: usize| Link {
-        kind: match k < 3 {
-            true => JointKind::Prismatic,
-            false => JointKind::Revolute,
-        },
+        kind: if k < 3 { Prismatic } else { Revolute },
         // From z to x to y to z.
         place: (k != 3).then(|| Columns::turned(three(|i| identity()[(i + 1) % 3]))),
         ..if k == 5 { body.clone() } else { Link::still() }
@@ -36,7 +34,7 @@ struct Base {
     /// Their rates.
     acceleration: Vec<S>,
     /// The columns of E, by which rates of the six joints give (v, ω).
-    twists: Vec<Vec<S>>,
+    twists: Matrix<S>,
 }
 
 impl Base {
@@ -90,10 +88,8 @@ fn anywhere(arm: &Arm<S>, draw: &mut Draw, round: usize) {
     let [qd, qdd] = [(); 2].map(|()| draw.values(dh.len()));
     let written = LagrangeEuler::new(&elsewhere, &dh);
     let base = Base::of(&elsewhere, &dh, [&qd, &qdd]);
-    let floating = Arm {
-        gravity: base.gravity,
-        ..arm.clone()
-    };
+    let mut floating = arm.clone();
+    floating.gravity = base.gravity;
     let position = [&draw.position_of(arm)[..6], &position[6..]].concat();
     let at = floating.at(&position);
     let with_joints = |base: &[S], joints: &[S]| [base, &joints[6..]].concat();
@@ -103,10 +99,9 @@ fn anywhere(arm: &Arm<S>, draw: &mut Draw, round: usize) {
     let found = by.inverse_dynamics(&floating, &at, &velocity, &rates);
     let expected = written.inverse_dynamics(&qd, &qdd);
     assert_eq!(fields(&base.felt(&found)), fields(&expected), "{round} τ");
-    let half: Vec<Vec<S>> = (by.inertia(&floating, &at).iter())
-        .map(|row| base.felt(row))
-        .collect();
-    let full: Vec<Vec<S>> = columns_of(&half).iter().map(|row| base.felt(row)).collect();
+    let d = by.inertia(&floating, &at);
+    let half: Matrix<S> = d.iter().map(|row| base.felt(row)).collect();
+    let full: Matrix<S> = columns_of(&half).iter().map(|row| base.felt(row)).collect();
     assert_eq!(flat(&full), flat(&written.inertia()), "{round} D");
     // The symbols are those of any coordinates: C of these is Eᵀ (C E + D Ė), which is skew beside
     // half of Ḋ, as it has to be, and gives h.

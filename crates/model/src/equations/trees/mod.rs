@@ -9,13 +9,15 @@ mod textbook;
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt::Debug;
 
 use super::chain::composite::{Composite, CompositeOrder};
 use super::chain::recursion::{AccelerationForm, MomentForm};
 use super::chain::{
-    Chain, Column, Displacement, EliminatedTip, Form, HandChoice, LinkRegrouping, MetricChain,
-    MomentBody, Probed, Regrouping, Skeleton, Unknowns,
+    Chain, Column, EliminatedTip, Form, HandChoice, LinkRegrouping, MetricChain, MomentBody,
+    Posture, Probed, Regrouping, Segment, Skeleton, Unknowns,
 };
+use super::derivatives::constants;
 use super::frames::{Frames, NamedFrame};
 use super::friction::Friction;
 use super::lagrange_euler::LagrangeEuler;
@@ -48,19 +50,19 @@ fn flat(rows: &[Vec<S>]) -> Vec<Field> {
     rows.iter().flat_map(|row| fields(row)).collect()
 }
 
+#[track_caller]
+fn agree(actual: &[S], expected: &[S], round: usize, what: impl Debug) {
+    assert_eq!(fields(actual), fields(expected), "{round} {what:?}");
+}
+
 fn friction(arm: &Arm<S>, rates: &[S]) -> Vec<S> {
     let links = arm.links.iter().zip(rates);
-    links
-        .map(|(link, rate)| link.friction.torque(rate))
-        .collect()
+    let torques = links.map(|(link, rate)| link.friction.torque(rate));
+    torques.collect()
 }
 
 fn dual(chain: &Chain<S>) -> Chain<Dual<S>> {
     chain.map(|x| Dual::constant(*x))
-}
-
-fn constants(values: &[S]) -> Vec<Dual<S>> {
-    values.iter().cloned().map(Dual::constant).collect()
 }
 
 fn growing(values: &[S], at: usize) -> Vec<Dual<S>> {
@@ -93,8 +95,7 @@ fn columns(n: usize, slopes: impl Fn(usize) -> Vec<Field>) -> Vec<Field> {
 }
 
 fn form(travel: CompositeOrder) -> Form {
-    Form {
-        travel,
-        ..Form::all(true, true, false, HandChoice::None)[0]
-    }
+    let mut form = Form::all(true, true, false, HandChoice::None)[0];
+    form.travel = travel;
+    form
 }

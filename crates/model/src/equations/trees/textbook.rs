@@ -19,12 +19,8 @@ fn formulations_agree_on_random_trees() {
         dynamics(&arm, &at, &mut draw, round);
         for axes in [Axes::Mixed, Axes::Local, Axes::World] {
             for frame in ["tip", HAND] {
-                let view = View {
-                    frame,
-                    axes,
-                    rows: Rows::ALL,
-                };
-                let arm_in_view = arm.seen(&view).expect("a frame");
+                let rows = Rows::ALL;
+                let arm_in_view = arm.seen(&View { frame, axes, rows }).expect("a frame");
                 kinematics(&arm_in_view, &at, &mut draw, round);
             }
         }
@@ -37,10 +33,10 @@ fn dynamics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize) 
     let first = Formulation::LagrangeEuler;
     let results = |by: Formulation| {
         let christoffel = by.christoffel(arm, at).concat();
-        let wrenches = by
-            .wrenches(arm, at, &qd, &qdd)
-            .into_iter()
-            .map(|wrench| [wrench.force, wrench.moment].concat());
+        let loads = by.wrenches(arm, at, [&qd, &qdd]).into_iter();
+        let wrenches = loads.map(|wrench| [wrench.force, wrench.moment].concat());
+        let kinetic = by.kinetic_energy(arm, at, &qd);
+        let inputs = [&qd[..], &qdd, &multiplier];
         let [rotation, translation] =
             [Part::Rotation, Part::Translation].map(|part| by.inertia_part(part, arm, at).concat());
         [
@@ -51,18 +47,13 @@ fn dynamics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize) 
             christoffel.concat(),
             by.momentum(arm, at, &qd),
             by.momentum_slope(arm, at, &qd),
-            vec![
-                by.kinetic_energy(arm, at, &qd),
-                by.potential_energy(arm, at),
-            ],
-            by.passivity(arm, at, &qd, [&v, &a]),
+            vec![kinetic, by.potential_energy(arm, at)],
+            by.passivity(arm, at, [&qd, &v, &a]),
             by.torque_by_position(arm, at, &qd, &qdd).concat(),
             by.torque_by_velocity(arm, at, &qd).concat(),
             match arm.floats {
                 true => Vec::new(),
-                false => by
-                    .torque_by_positions(arm, at, [&qd, &qdd, &multiplier])
-                    .concat(),
+                false => by.torque_by_positions(arm, at, inputs).concat(),
             },
             wrenches.collect::<Vec<_>>().concat(),
             rotation,
@@ -114,16 +105,10 @@ fn kinematics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize
             let hand = SeenHand::new(by, (arm, at), axes);
             let jacobian = hand.turned(&columns_of(&hand.jacobian())).concat();
             let expected = columns_of(&by.jacobian(arm, at)).concat();
-            assert_eq!(
-                fields(&jacobian),
-                fields(&expected),
-                "{round} {by:?} {axes:?}"
-            );
+            agree(&jacobian, &expected, round, (by, axes));
             let rate = hand.turned(&[hand.rate(&qd)]).concat();
-            assert_eq!(
-                fields(&rate),
-                fields(&by.jacobian_rate(arm, at, &qd).concat())
-            );
+            let expected = by.jacobian_rate(arm, at, &qd).concat();
+            agree(&rate, &expected, round, (by, axes));
         }
     }
     // Links' frames are those of their rows, where no other is given.

@@ -1,4 +1,4 @@
-//! Integers of 256 bits in limbs of 64, the least first: significands.
+//! Integers of 256 bits in limbs of 64, the least first: significands, whose highest bit is one.
 
 use core::cmp::Ordering;
 
@@ -13,8 +13,7 @@ const BITS: u32 = u64::BITS;
 /// The limbs of a product, or of a significand with as many bits again below it.
 type Double = [u64; 2 * LIMBS];
 
-/// Returns the top of a × b, the highest bit of both being one, and whether that of the product
-/// is the last but one: then all is shifted by one.
+/// Returns the top of a × b, shifted by one if its highest bit is the last but one, and whether.
 pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
     let mut limbs: Double = [0; 2 * LIMBS];
     for (i, &x) in a.iter().enumerate() {
@@ -30,8 +29,8 @@ pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
     (top(&limbs, shift), shift > 0)
 }
 
-/// Returns the top of a + b·2⁻ᵍ, the highest bit of both being one, and whether there is a bit
-/// more. The gap is at most a significand's bits, so nothing is lost before the cut.
+/// Returns the top of a + b·2⁻ᵍ, and whether there is a bit more. The gap is at most a significand's
+/// bits, so nothing is lost before the cut.
 pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
     let (mut limbs, below) = (wide(a), lowered(b, gap));
     let mut carry = false;
@@ -50,8 +49,7 @@ pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
     (kept, carry)
 }
 
-/// Returns the top of |a − b·2⁻ᵍ|, the highest bit of both being one, by how many bits it is
-/// shifted up, and which of the two is the larger one.
+/// Returns the top of |a − b·2⁻ᵍ|, by how many bits it is shifted up, and which of both is larger.
 pub(super) fn difference(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, u32, Ordering) {
     let (left, right) = (wide(a), lowered(b, gap));
     let order = left.iter().rev().cmp(right.iter().rev());

@@ -1,9 +1,8 @@
 //! A float of 256 bits: what errors of emitted code are measured against.
 //!
-//! A value is ±m·2^e with an integer m of 256 bits, the highest of which is one; every
-//! operation cuts its result to that many, so its relative error is below 2⁻²⁵⁵. There
-//! is no infinity, no NaN and, for any exponent that a robot can bring about,
-//! no overflow. Numbers come from the integers that exact constants need.
+//! A value is ±m·2^e with an integer m of 256 bits, the highest of which is one; every operation
+//! cuts its result to that many, so its relative error is below 2⁻²⁵⁵. There is no infinity, no NaN
+//! and, for any exponent of a robot, no overflow. Numbers come from integers, as constants do.
 //!
 //! - `limbs`: significands
 
@@ -23,7 +22,7 @@ use limbs::{LIMBS, Limbs};
 const BITS: u64 = 256;
 
 /// A number of 256 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wide {
     negative: bool,
     /// All zero if the value is; its exponent is zero then, and it is not negative.
@@ -68,8 +67,7 @@ impl Wide {
         Wide::sincos_to(angle, BITS as usize + 16)
     }
 
-    /// Returns sine and cosine of a double of radians, also of one that is as small as a double
-    /// can be; `None` if it is not finite.
+    /// Returns sine and cosine of radians, also of the smallest double; `None` if it is not finite.
     pub fn sincos_of(radians: f64) -> Option<SinCosPair<Wide>> {
         let angle = Angle::Radians(Rational::from_float(radians)?);
         // So many of the sine's first bits may be zero.
@@ -166,11 +164,7 @@ impl Wide {
 
 impl Scalar for Wide {
     fn zero() -> Self {
-        Wide {
-            negative: false,
-            significand: [0; LIMBS],
-            exponent: 0,
-        }
+        Wide::default()
     }
     fn one() -> Self {
         let mut significand = [0; LIMBS];
@@ -182,11 +176,8 @@ impl Scalar for Wide {
         }
     }
     fn add(&self, other: &Self) -> Self {
-        if self.is_zero() {
-            return *other;
-        }
-        if other.is_zero() {
-            return *self;
+        if self.is_zero() || other.is_zero() {
+            return if self.is_zero() { *other } else { *self };
         }
         let (high, low) = match self.exponent >= other.exponent {
             true => (self, other),
@@ -229,19 +220,13 @@ impl Scalar for Wide {
         }
     }
     fn neg(&self) -> Self {
-        Wide {
-            negative: !self.negative && !self.is_zero(),
-            ..*self
-        }
+        let negative = !self.negative && !self.is_zero();
+        Wide { negative, ..*self }
     }
     fn half(&self) -> Self {
-        match self.is_zero() {
-            true => *self,
-            false => Wide {
-                exponent: self.exponent.saturating_sub(1),
-                ..*self
-            },
-        }
+        // The exponent of zero stays zero.
+        let exponent = self.exponent.saturating_sub(i64::from(!self.is_zero()));
+        Wide { exponent, ..*self }
     }
     fn is_zero(&self) -> bool {
         // The highest bit of a nonzero value is one.

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use num_traits::Signed;
 
 use super::Check;
-use crate::robot::{BodyRange, Limit, Position, RobotWarning, shown};
+use crate::robot::{Limit, Position, RobotWarning, shown};
 
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
 
@@ -15,14 +15,11 @@ impl Check<'_> {
     pub(super) fn bounds(&mut self) {
         let n = self.robot.joints.len();
         let (bounds, rates) = (&self.scene.bounds, self.base() + n);
+        let length = |rate: Limit| bounds.rate(rate).map(Vec::len);
         for (key, length, expected) in [
             ("position", bounds.position.as_ref().map(Vec::len), n),
-            ("velocity", bounds.velocity.as_ref().map(Vec::len), rates),
-            (
-                "acceleration",
-                bounds.acceleration.as_ref().map(Vec::len),
-                rates,
-            ),
+            ("velocity", length(Limit::Velocity), rates),
+            ("acceleration", length(Limit::Acceleration), rates),
         ] {
             if let Some(length) = length.filter(|&length| length != expected) {
                 let (has, help) = match expected == n {
@@ -41,9 +38,8 @@ impl Check<'_> {
         }
         self.rates(Limit::Velocity);
         self.rates(Limit::Acceleration);
-        if let Some((message, help)) = bounds.payload.as_ref().and_then(BodyRange::error) {
-            self.error("box/payload", message, help);
-        }
+        let payload = self.place("box/payload");
+        self.found.bodies(payload, &bounds.payload);
     }
 
     fn positions(&mut self, index: usize, [low, high]: &[Position; 2]) {
@@ -97,8 +93,7 @@ impl Check<'_> {
             let joint = self.robot.joint_of(index);
             let is_locked = joint.is_some_and(|joint| self.scene.locked(joint).is_some());
             let limit = self.robot.limit_of(index, rate);
-            let beyond = limit.filter(|limit| value > limit && !is_locked);
-            if let Some(limit) = beyond {
+            if let Some(limit) = limit.filter(|limit| value > limit && !is_locked) {
                 let (scene, name) = (&self.scene.name, self.robot.coordinate_label(index));
                 let limit = shown(limit);
                 let message = format!(

@@ -1,10 +1,8 @@
-//! The tolerance, and what it needs of the robot: a box, and limits of torque
-//! if these are what it is relative to.
+//! The tolerance, and what it needs of the robot: a box, and limits of torque as its scale.
 
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
-use alloc::vec::Vec;
 
 use num_traits::{One, Signed, Zero};
 
@@ -37,11 +35,8 @@ impl Check<'_> {
                 self.error(self.of_value(index), "a tolerance must be above zero", help);
             }
         }
-        if let Some(index) = tolerance
-            .value
-            .iter()
-            .position(|value| *value >= Rational::one())
-        {
+        let mut values = tolerance.value.iter();
+        if let Some(index) = values.position(|value| *value >= Rational::one()) {
             let message = "a tolerance of 1 or more allows an error as large as the output";
             let help = "it is a fraction of the reference: 0.01 for 1%";
             let (warning, place) = (RobotWarning::LooseTolerance, self.of_value(index));
@@ -74,10 +69,7 @@ impl Check<'_> {
     fn needs(&mut self, scale: Scale) {
         let scene = self.scene;
         let robot = scene.apply(self.robot);
-        let (base, joints) = (self.base(), scene.rows(robot.joints.len()));
-        let rows: Vec<usize> = (0..base)
-            .chain(joints.iter().map(|joint| base + joint))
-            .collect();
+        let joints = scene.rows(robot.joints.len());
         let velocity = !scene.velocity_zero && self.may_read(Argument::Velocity);
         let acceleration = !scene.acceleration_zero && self.may_read(Argument::Acceleration);
         // The generator checks functions that the request alone names.
@@ -99,7 +91,8 @@ impl Check<'_> {
                     self.range(coordinate, rate.key(), lacks);
                 }
             }
-            if scale != Scale::Actuator || !rows.contains(&coordinate) {
+            let has_result = joint.is_none_or(|joint| joints.contains(&joint));
+            if scale != Scale::Actuator || !has_result {
                 continue;
             }
             for (rate, of, is_needed) in [
@@ -114,19 +107,11 @@ impl Check<'_> {
         }
     }
 
-    /// The label of a coordinate of the robot in the scene. Of a base, all six are missing at once.
-    fn label(&self, coordinate: usize) -> String {
+    /// The label of a coordinate in the scene, all six of a base at once, and the file's word for it.
+    fn label(&self, coordinate: usize) -> (String, &'static str) {
         match coordinate.checked_sub(self.base()) {
-            Some(joint) => self.robot.joint_label(joint),
-            None => "the base".to_owned(),
-        }
-    }
-
-    /// The word of a robot file for what has the limits of a coordinate.
-    fn owner(&self, coordinate: usize) -> &'static str {
-        match coordinate < self.base() {
-            true => "base",
-            false => "joint",
+            Some(joint) => (self.robot.joint_label(joint), "joint"),
+            None => ("the base".to_owned(), "base"),
         }
     }
 
@@ -134,23 +119,21 @@ impl Check<'_> {
         // One message is enough for the six coordinates of a base.
         let is_repeated = (1..self.base()).contains(&coordinate);
         if lacks && !is_repeated {
-            let name = self.label(coordinate);
+            let (name, owner) = self.label(coordinate);
             let message = format!("a tolerance needs the range of the {what} of {name}");
-            let owner = self.owner(coordinate);
             let help = format!("give `{what}` in the scene's box or in the {owner}'s limits");
             self.error("tolerance", message, &help);
         }
     }
 
     fn above_zero(&mut self, coordinate: usize, rate: Limit, of: &str, limit: Option<&Rational>) {
-        let (name, what) = (self.label(coordinate), rate.key());
+        let ((name, owner), what) = (self.label(coordinate), rate.key());
         match limit {
             None if (1..self.base()).contains(&coordinate) => {}
             None => {
                 let message = format!(
                     "a tolerance{of} relative to the actuator needs the {what} limit of {name}"
                 );
-                let owner = self.owner(coordinate);
                 let help =
                     format!("give `{what}` in the {owner}'s limits, or relative_to = \"range\"");
                 self.error("tolerance", message, &help);

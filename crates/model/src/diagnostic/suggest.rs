@@ -42,7 +42,7 @@ const OTHER_WORDS: [(&str, &[&str]); 29] = [
     ("newton_euler", &["newton", "rne"]),
 ];
 
-pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
+pub(crate) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     const FRICTION: &str = "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both";
     if word == "friction" && known.contains(&"viscous") && known.contains(&"coulomb") {
         return Some(FRICTION.into());
@@ -67,18 +67,11 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
         return Some(same);
     }
     let letters = word.chars().count();
-    candidates
-        .iter()
-        .map(|candidate| {
-            (
-                osa_distance(&word, &candidate.to_ascii_lowercase()),
-                *candidate,
-            )
-        })
-        // One slip in three letters at most: `a` is not a slip of `d`.
-        .filter(|(distance, candidate)| distance * 3 <= letters.max(candidate.len()))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+    let distance = |known: &str| osa_distance(&word, &known.to_ascii_lowercase());
+    // One slip in three letters at most: `a` is not a slip of `d`.
+    let is_near = |known: &&&str| distance(known) * 3 <= letters.max(known.len());
+    let near = candidates.iter().filter(is_near);
+    near.min_by_key(|known| distance(known)).copied()
 }
 
 #[cfg(test)]

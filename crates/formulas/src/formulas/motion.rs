@@ -5,8 +5,7 @@ use dalembert_model::scalar::Scalar;
 
 use super::{Builder, FEW_JOINTS};
 use crate::expression::{Factor, Sum, Term};
-use crate::line::{Line, Section};
-use crate::lists::{list, pairs};
+use crate::line::{Line, Section, list, pairs};
 use crate::number::Number;
 use crate::quantity::Quantity;
 use crate::symbol::Symbol;
@@ -35,25 +34,31 @@ impl Builder<'_> {
         Some(Factor::Sum(sum))
     }
 
+    /// Returns an entry times a number and rates; `None` if it is zero.
+    fn term(
+        &mut self,
+        quantity: Quantity,
+        indices: &[usize],
+        table: usize,
+        number: f64,
+        rates: Vec<Factor>,
+    ) -> Option<Term> {
+        let entry = self.entry(quantity, indices, table)?;
+        let mut factors = vec![Factor::Exact(Number::of_dyadic(number)), entry];
+        factors.extend(rates);
+        Some(flat(Term::new(false, factors)))
+    }
+
     pub(super) fn kinetic_energy(&mut self, table: usize) -> Section {
         let mut sum = Sum::new();
         let is_moving = !self.setup.has_zero(Argument::Velocity);
         for (i, k) in pairs(self.setup.rows().len()).filter(|_| is_moving) {
-            let Some(factor) = self.entry(Quantity::Inertia, &[i, k], table) else {
-                continue;
-            };
-            let mut factors = Vec::new();
-            if i == k {
-                factors.push(Factor::Exact(Number::one().half()));
-            }
-            factors.push(factor);
-            factors.extend(self.rates([i, k]));
-            sum.push(flat(Term::new(false, factors)));
+            let number = if i == k { 0.5 } else { 1.0 };
+            let rates = self.rates([i, k]);
+            sum.extend(self.term(Quantity::Inertia, &[i, k], table, number, rates));
         }
-        self.single(
-            Quantity::KineticEnergy,
-            vec![(Quantity::KineticEnergy.entry(&[]), sum)],
-        )
+        let name = Quantity::KineticEnergy.entry(&[]);
+        self.single(Quantity::KineticEnergy, vec![(name, sum)])
     }
 
     pub(super) fn torques(&mut self, table: usize) -> Section {
@@ -65,22 +70,13 @@ impl Builder<'_> {
             let mut sum = Sum::new();
             for k in (0..n).filter(|_| is_accelerating) {
                 let indices = [i.min(k), i.max(k)];
-                if let Some(factor) = self.entry(Quantity::Inertia, &indices, table) {
-                    let rate = Symbol::rate(2, self.joint(k));
-                    let factors = vec![factor, Factor::Symbol(rate, 1)];
-                    sum.push(flat(Term::new(false, factors)));
-                }
+                let rate = Factor::Symbol(Symbol::rate(2, self.joint(k)), 1);
+                sum.extend(self.term(Quantity::Inertia, &indices, table, 1.0, vec![rate]));
             }
             for (k, m) in pairs(n).filter(|_| is_moving) {
-                let Some(factor) = self.entry(Quantity::Christoffel, &[i, k, m], table) else {
-                    continue;
-                };
-                let mut factors = vec![factor];
-                if k != m {
-                    factors.insert(0, Factor::Exact(Number::of_dyadic(2.0)));
-                }
-                factors.extend(self.rates([k, m]));
-                sum.push(flat(Term::new(false, factors)));
+                let number = if k == m { 1.0 } else { 2.0 };
+                let (indices, rates) = ([i, k, m], self.rates([k, m]));
+                sum.extend(self.term(Quantity::Christoffel, &indices, table, number, rates));
             }
             match self.entry(Quantity::Gravity, &[i], table) {
                 Some(Factor::Sum(terms)) => sum.extend(terms),
@@ -106,62 +102,47 @@ impl Builder<'_> {
     }
 
     fn single(&self, quantity: Quantity, lines: Vec<(Symbol, Sum)>) -> Section {
-        let (zeros, lines): (Vec<_>, Vec<_>) =
-            lines.into_iter().partition(|(_, sum)| sum.is_empty());
-        let line = |(name, sum)| Line {
-            name,
-            others: Vec::new(),
-            sum,
-        };
-        Section {
+        let mut section = Section {
             title: quantity.title().to_owned(),
-            lines: lines.into_iter().map(line).collect(),
-            zeros: zeros.into_iter().map(|(name, _)| name).collect(),
+            lines: Vec::new(),
+            zeros: Vec::new(),
             list: list(quantity, self.setup.rows().len()),
+        };
+        for (name, sum) in lines {
+            match sum.is_empty() {
+                true => section.zeros.push(name),
+                false => section.lines.push(Line::new(name, sum)),
+            }
         }
+        section
     }
 }
 
 /// Puts a sum of one term beside its factors, and makes one number of all numbers.
-fn flat(term: Term) -> Term {
-    let mut term = spliced(term);
-    let mut measured = false;
-    let mut number = Number::one();
-    term.factors.retain(|factor| match factor {
-        Factor::Number(x) => {
-            measured = true;
-            number = number.mul(x);
-            false
-        }
-        Factor::Exact(x) => {
-            number = number.mul(x);
-            false
-        }
-        _ => true,
-    });
-    if !number.is_one() {
-        let number = if measured {
-            Factor::Number(number)
-        } else {
-            Factor::Exact(number)
-        };
-        term.factors.insert(0, number);
-    }
-    term
-}
-
-fn spliced(mut term: Term) -> Term {
-    let place = term
-        .factors
-        .iter()
-        .position(|factor| matches!(factor, Factor::Sum(sum) if sum.len() == 1));
-    let Some(place) = place else { return term };
-    let Factor::Sum(mut sum) = term.factors.remove(place) else {
-        return term;
-    };
-    if let Some(inner) = sum.pop() {
+fn flat(mut term: Term) -> Term {
+    let is_single = |factor: &Factor| matches!(factor, Factor::Sum(sum) if sum.len() == 1);
+    if let Some(place) = term.factors.iter().position(is_single)
+        && let Factor::Sum(mut sum) = term.factors.remove(place)
+        && let Some(inner) = sum.pop()
+    {
         term.is_negative ^= inner.is_negative;
         term.factors.splice(place..place, inner.factors);
+    }
+    let (mut number, mut is_measured) = (Number::one(), false);
+    term.factors.retain(|factor| {
+        let (Factor::Number(x) | Factor::Exact(x)) = factor else {
+            return true;
+        };
+        is_measured |= matches!(factor, Factor::Number(_));
+        number = number.mul(x);
+        false
+    });
+    if !number.is_one() {
+        let factor = match is_measured {
+            true => Factor::Number(number),
+            false => Factor::Exact(number),
+        };
+        term.factors.insert(0, factor);
     }
     term
 }

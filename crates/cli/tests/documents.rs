@@ -93,10 +93,8 @@ fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<Str
     let mut rest = body;
     while let Some((first, more)) = rest.split_first() {
         let command = first.strip_prefix("$ ").expect("a command");
-        let length = more
-            .iter()
-            .take_while(|line| !line.starts_with("$ "))
-            .count();
+        let results = more.iter().take_while(|line| !line.starts_with("$ "));
+        let length = results.count();
         let transcript = ran(command, inside, result_alone);
         let shown: Vec<&str> = more[..length].iter().map(|line| line.trim_end()).collect();
         let printed: Vec<&str> = transcript[1..].iter().map(String::as_str).collect();
@@ -131,10 +129,8 @@ fn run_pages(pages: &[PathBuf], inside: &Path) {
                     fs::write(path, before + &body.join("\n") + "\n").unwrap();
                 }
                 ("console", what) => {
-                    changes.extend(
-                        checked(body, inside, what == "result")
-                            .map(|replacement| (range, replacement)),
-                    );
+                    let replacement = checked(body, inside, what == "result");
+                    changes.extend(replacement.map(|replacement| (range, replacement)));
                 }
                 _ => {}
             }
@@ -186,11 +182,9 @@ fn the_guide_shows_what_commands_print() {
 #[test]
 fn the_readme_shows_what_commands_print() {
     let inside = folder_with("readme", &[]);
-    let files = ["planar2r.toml", "planar2r.plan"].map(|name| format!("generated/robots/{name}"));
-    folder_with(
-        "readme/generated/robots",
-        &files.each_ref().map(String::as_str),
-    );
+    let paths = ["planar2r.toml", "planar2r.plan"].map(|name| format!("generated/robots/{name}"));
+    let files = paths.each_ref().map(String::as_str);
+    folder_with("readme/generated/robots", &files);
     run_pages(&[root().join("README.md")], &inside);
 }
 
@@ -305,10 +299,8 @@ fn figures_in_the_prose_are_right() {
     let names = [
         "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
     ];
-    for (row, label) in ["Lagrange–Euler", "Newton–Euler", "D'Alembert"]
-        .iter()
-        .enumerate()
-    {
+    let labels = ["Lagrange–Euler", "Newton–Euler", "D'Alembert"];
+    for (row, label) in labels.iter().enumerate() {
         let cells = names.map(|name| {
             let [mul, add, ..] = comparisons(&robot(name))[row].1;
             format!("{mul}/{add}")
@@ -319,9 +311,8 @@ fn figures_in_the_prose_are_right() {
     let results = ["RESULTS_C", "RESULTS_LEGGED"]
         .map(|name| page(&format!("benches/peers/{name}.md")))
         .concat();
-    let measured = results
-        .split('|')
-        .filter_map(|cell| cell.split_whitespace().next());
+    let cells = results.split('|');
+    let measured = cells.filter_map(|cell| cell.split_whitespace().next());
     let times: Vec<&str> = measured.collect();
     for path in guide_and_readmes() {
         let text = read(&path);
@@ -361,9 +352,8 @@ fn links_lead_somewhere() {
             }
         }
         if page.ends_with("architecture.md") {
-            let words = prose
-                .iter()
-                .flat_map(|part| part.split('`').skip(1).step_by(2));
+            let parts = prose.iter();
+            let words = parts.flat_map(|part| part.split('`').skip(1).step_by(2));
             for name in words.filter(|word| word.ends_with(".rs")) {
                 assert!(root().join(name).exists(), "{page:?} names {name}");
             }

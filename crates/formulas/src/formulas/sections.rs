@@ -5,8 +5,7 @@ use dalembert_model::scalar::Scalar;
 use super::{Builder, OF_FILE, Source};
 use crate::canonical::Splits;
 use crate::expression::{Sum, products};
-use crate::line::{Line, Section};
-use crate::lists::{list, pairs};
+use crate::line::{Line, Section, list, pairs};
 use crate::quantity::Quantity;
 use crate::ring::Polynomial;
 use crate::rows::{Meaning, Moments, Rows};
@@ -35,13 +34,9 @@ impl Builder<'_> {
             }
         }
         let mut sums = self.sums(&polynomials, OF_FILE).into_iter();
-        let line = |(name, meaning)| Line {
-            name,
-            others: Vec::new(),
-            sum: match meaning {
-                Meaning::Polynomial(_) => sums.next().unwrap_or_default(),
-                Meaning::Products(sum) => sum,
-            },
+        let line = |(name, meaning)| match meaning {
+            Meaning::Polynomial(_) => Line::new(name, sums.next().unwrap_or_default()),
+            Meaning::Products(sum) => Line::new(name, sum),
         };
         Section {
             title: ROWS.to_owned(),
@@ -60,28 +55,19 @@ impl Builder<'_> {
             list: list(source.quantity, self.setup.rows().len()),
         };
         let mut distinct: Vec<Polynomial> = Vec::new();
-        for (name, polynomial) in source.names.iter().zip(&source.polynomials) {
+        for (name, polynomial) in &source.entries {
             if polynomial.is_zero() {
                 section.zeros.push(name.clone());
                 continue;
             }
-            let known = distinct
-                .iter()
-                .map(|earlier| earlier.sign_against(polynomial));
-            match known
-                .enumerate()
-                .find_map(|(place, sign)| Some((place, sign?)))
-            {
-                Some((place, sign)) => {
-                    section.lines[place].others.push((sign < 0, name.clone()));
-                }
+            let mut known = distinct.iter().zip(&mut section.lines);
+            let repeated =
+                known.find_map(|(earlier, line)| Some((line, earlier.sign_against(polynomial)?)));
+            match repeated {
+                Some((line, sign)) => line.others.push((sign < 0, name.clone())),
                 None => {
                     distinct.push(polynomial.clone());
-                    section.lines.push(Line {
-                        name: name.clone(),
-                        others: Vec::new(),
-                        sum: Sum::new(),
-                    });
+                    section.lines.push(Line::new(name.clone(), Sum::new()));
                 }
             }
         }
@@ -111,14 +97,8 @@ impl Builder<'_> {
             }
         };
         let (large, small): (Vec<usize>, Vec<usize>) = (0..polynomials.len()).partition(is_large);
-        let kept: Vec<Polynomial> = small
-            .iter()
-            .map(|&place| polynomials[place].clone())
-            .collect();
-        let splits = Splits::choose(&self.runs, &kept);
-        let expanded: Vec<Sum> = (0..small.len())
-            .map(|index| self.sum(&splits.terms(index), source.table))
-            .collect();
+        let kept = small.iter().map(|&place| polynomials[place].clone());
+        let expanded = self.sums(&kept.collect::<Vec<_>>(), source.table);
         let has_rows = !large.is_empty() || expanded.iter().any(|sum| products(sum) > LARGE);
         let most = if has_rows { LARGE_BESIDE_ROWS } else { LARGE };
         let mut sums: Vec<Sum> = vec![Sum::new(); polynomials.len()];
@@ -141,11 +121,8 @@ impl Builder<'_> {
         rows: &mut Rows<'_>,
     ) -> Sum {
         let n = self.setup.rows().len();
-        let place = source
-            .names
-            .iter()
-            .position(|other| other == name)
-            .unwrap_or_default();
+        let mut names = source.entries.iter().map(|(other, _)| other);
+        let place = names.position(|other| other == name).unwrap_or_default();
         match source.quantity {
             Quantity::Gravity => rows.gravity(moments, place),
             Quantity::Inertia | Quantity::InertiaRotation | Quantity::InertiaTranslation => {

@@ -29,10 +29,8 @@ impl Builder<'_> {
         }
         let of_file = self.names(OF_FILE);
         // An armature is a base parameter as it stands.
-        let is_of_file = |symbol: &Symbol| {
-            let mut file = self.arm.parameters.iter();
-            file.any(|definition| definition.symbol == *symbol)
-        };
+        let file = &self.arm.symbols.parameters;
+        let is_of_file = |symbol: &Symbol| file.iter().any(|other| other.symbol == *symbol);
         for table in &self.tables[1..] {
             for (definition, (_, value)) in table.definitions.iter().zip(&table.parameters) {
                 if codes.contains(&definition.symbol.code) && !is_of_file(&definition.symbol) {
@@ -46,21 +44,14 @@ impl Builder<'_> {
                 }
             }
         }
-        let mut entries: Vec<_> = self
-            .arm
-            .lengths
-            .iter()
-            .chain(&self.arm.parameters)
-            .collect();
+        let mut entries = [self.arm.symbols.lengths.as_slice(), file].concat();
         entries.sort_by_key(|entry| entry.row);
-        for entry in entries
-            .into_iter()
-            .filter(|entry| codes.contains(&entry.symbol.code))
-        {
+        entries.retain(|entry| codes.contains(&entry.symbol.code));
+        for entry in entries {
             legend.entry(self.label(entry.row), entry);
         }
         legend.frames = Frames::of(self.setup.robot());
-        legend.has_numeric_centres = self.arm.has_numeric_centres;
+        legend.has_numeric_centres = self.arm.symbols.has_numeric_centres;
         legend
     }
 
