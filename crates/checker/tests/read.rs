@@ -130,6 +130,16 @@ fn loops_over_limbs() {
             ("for (", "ARM_FORGET(k1);\nfor (", "an array of lanes"),
             ("double w1[1][2]", "double w1[1][65]", "lengths of an array"),
             ("double w1[1][2]", "double w1[2][2]", "no lane writes"),
+            (
+                "double w1",
+                "double w2[2048][64];\ndouble w1",
+                "lengths of an array",
+            ),
+            (
+                "double w1",
+                "double w2[131072][1];\ndouble w1",
+                "lengths of an array",
+            ),
             ("l < 2", "l < 1", "a loop over lanes"),
             ("l < 2", "l < 3", "no index"),
             ("u1[0][l] *", "u1[1][l] *", "no index"),

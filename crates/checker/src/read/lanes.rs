@@ -52,13 +52,16 @@ impl<'r> Reader<'r> {
     /// Takes the array that a loop writes: `w1` of so many rows and lanes.
     pub(super) fn empty_array(&mut self, name: &'r str, [rows, lanes]: [&str; 2]) -> Read<()> {
         // A leading zero would make it octal in C.
-        let count = |word: &str| whole(word).filter(|count| *count <= MOST_STEPS);
-        match (count(rows), count(lanes)) {
-            (Some(rows), Some(lanes)) if lanes <= MOST_LANES => {
-                self.array(name, vec![vec![None; lanes]; rows])
+        if let (Some(rows), Some(lanes)) = (whole(rows), whole(lanes))
+            && lanes <= MOST_LANES
+        {
+            // Each entry is the value of a step or stands for one.
+            self.entries = self.entries.saturating_add(rows.saturating_mul(lanes));
+            if self.entries <= MOST_STEPS {
+                return self.array(name, vec![vec![None; lanes]; rows]);
             }
-            _ => self.refuse("lengths of an array expected"),
         }
+        self.refuse("lengths of an array expected")
     }
 
     /// Takes a loop behind its head. It is what each lane does, one after the other.

@@ -32,6 +32,8 @@ pub(super) struct Reader<'r> {
     is_angle: bool,
     /// The arrays of values a lane, with the entries that are written.
     pub arrays: HashMap<&'r str, Vec<Vec<ArrayValue>>>,
+    /// The entries of arrays that loops write.
+    pub entries: usize,
     /// The lane that is read, in a loop over them.
     pub lane: Option<usize>,
 }
@@ -55,6 +57,7 @@ impl<'r> Reader<'r> {
             polynomial: (0, Vec::new()),
             is_angle: false,
             arrays: HashMap::new(),
+            entries: 0,
             lane: None,
         }
     }
