@@ -10,7 +10,7 @@
 
 use super::corrections::{Frame, change};
 use super::linear::dot;
-use super::net::{Arg, Edits, Net, NodeValue, short};
+use super::net::{Arg, Edits, Net, NodeValue, seven_digits};
 use super::samples::Samples;
 use super::search::Target;
 use crate::program::{Operation, Program};
@@ -323,7 +323,7 @@ impl<'a> Greedy<'a> {
             let middle = 0.5 * (low + high);
             let mut replacements = vec![NodeValue::Constant(0.0)];
             if middle.abs() > 0.2 * (high - low) {
-                replacements.push(NodeValue::Constant(short(middle)));
+                replacements.push(NodeValue::Constant(seven_digits(middle)));
             }
             if node >= count {
                 let op = &state.ops[node - count];
@@ -354,7 +354,7 @@ impl<'a> Greedy<'a> {
                 for &(_, other, factor) in alike.iter().take(MOST_ALIKE) {
                     replacements.push(NodeValue::Times(factor.signum(), other));
                     if !is_multiple {
-                        replacements.push(NodeValue::Times(short(factor), other));
+                        replacements.push(NodeValue::Times(seven_digits(factor), other));
                     }
                 }
             }
@@ -384,14 +384,14 @@ impl<'a> Greedy<'a> {
                 if let (Arg::Constant(c), Arg::Constant(was)) = (arg, was) {
                     *c = match (*c - was).abs() <= 1e-7 * was.abs() {
                         true => *was,
-                        false => short(*c),
+                        false => seven_digits(*c),
                     };
                 }
             }
         }
         for edit in state.edits.iter_mut().flatten() {
             match edit {
-                NodeValue::Constant(c) | NodeValue::Times(c, _) => *c = short(*c),
+                NodeValue::Constant(c) | NodeValue::Times(c, _) => *c = seven_digits(*c),
             }
         }
     }

@@ -343,8 +343,8 @@ impl Fold {
     }
 }
 
-/// Rounds to seven digits.
-pub(super) fn short(x: f64) -> f64 {
+/// Rounds to seven digits, as an edited constant is printed; the program then rounds it to its scalar.
+pub(super) fn seven_digits(x: f64) -> f64 {
     f64::nearest_rational(&digits(x))
 }
 

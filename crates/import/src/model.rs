@@ -80,7 +80,7 @@ pub(crate) struct Joint {
     pub(crate) velocity: Option<Number>,
     pub(crate) acceleration: Option<Number>,
     pub(crate) damping: Option<Number>,
-    /// Coulomb friction and a spring, which are not imported.
+    /// Coulomb friction and a spring, which a robot file does not get: the report names them.
     pub(crate) friction: Option<Number>,
     pub(crate) spring: Option<Number>,
     pub(crate) armature: Rational,

@@ -51,7 +51,7 @@ impl ReducedModel<'_> {
         let mut links = nothing(&skeleton(self.setup));
         for (&term, &factor) in terms.iter().zip(factors) {
             let term = &self.terms.all[term];
-            add(&mut links[term.link], &term.unit, &short(factor));
+            add(&mut links[term.link], &term.unit, &five_digits(factor));
         }
         let outputs = self.terms.outputs.iter();
         let rows: Vec<usize> = outputs.map(|&output| self.exact.rows[output]).collect();
@@ -70,7 +70,8 @@ fn add(link: &mut FittedLink, unit: &FittedLink, factor: &Exact) {
     link.viscous = link.viscous.add(&unit.viscous.mul(factor));
 }
 
-fn short(x: f64) -> Exact {
+/// Rounds to five digits: a factor is fitted to samples.
+fn five_digits(x: f64) -> Exact {
     let digits: Rational = parse_decimal(&format!("{x:.4e}")).unwrap_or_default();
     Exact::from(digits)
 }

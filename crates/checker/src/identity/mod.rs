@@ -14,7 +14,7 @@
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles
 //! - [`robot`]: the robot file as text; [`setting`]: what a scene fixes and asks for
 //! - [`aligned`]: rows that stand for placed joints; [`arm`]: axes and masses in base axes
-//! - [`table`]: the 43 functions; [`state`]: their arguments; [`outputs`]: every result by
+//! - [`table`]: all functions; [`state`]: their arguments; [`outputs`]: every result by
 //!   the equations of Newton and Euler, with `contact`, `screw` and `matrix`
 //! - [`given`]: what a function that takes a `load` is given
 

@@ -1,4 +1,4 @@
-//! The 43 outputs: what each reads and returns.
+//! All outputs: what each reads and returns.
 
 use std::sync::LazyLock;
 
