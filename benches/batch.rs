@@ -44,9 +44,11 @@ const ROUNDS: usize = 401;
 /// Seeded numbers inside ±π in columns, for each argument.
 fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
     let mut points = Points::new(1);
-    let mut number = |_| std::f64::consts::PI * points.unit();
-    let mut column = || (0..states).map(&mut number).collect();
-    [(); 3].map(|()| [(); 6].map(|()| column()))
+    let mut column = || -> Vec<f64> {
+        let numbers = (0..states).map(|_| std::f64::consts::PI * points.unit());
+        numbers.collect()
+    };
+    std::array::from_fn(|_argument| std::array::from_fn(|_joint| column()))
 }
 
 /// Returns the slice that begins at a line of the cache, in a vector that is longer by one line.

@@ -33,7 +33,8 @@ impl Gcc {
         let (mut loops, mut cases) = (String::new(), String::new());
         for (index, head) in heads.enumerate() {
             let function = head.split('(').next()?.rsplit(' ').next()?;
-            let scalar = ["double", "float"][usize::from(head.contains("float"))];
+            let is_single = head.contains("float");
+            let scalar = if is_single { "float" } else { "double" };
             let results = head.split(", ").filter(|part| !part.starts_with("const "));
             let length = |part: &str| {
                 part.split(['[', ' ', ']'])

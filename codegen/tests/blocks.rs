@@ -58,7 +58,8 @@ const SCENES: [(&str, &[&[usize]]); 4] = [
 #[test]
 fn blocks_are_the_entries_of_the_matrix() {
     for (scene, limbs) in SCENES {
-        let in_scene = ["scene: test; ", ""][usize::from(scene.is_empty())];
+        let has_scene = !scene.is_empty();
+        let in_scene = if has_scene { "scene: test; " } else { "" };
         let asked = format!("{in_scene}outputs: inertia, inertia_blocks; scalar: f64");
         let case = Case::read(&robot(scene), &asked);
         let generated = case.generated();

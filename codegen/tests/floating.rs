@@ -20,7 +20,8 @@ const REFUSED: [(&str, &str); 4] = [
 fn every_output() -> String {
     let is_there = |function: &Function| REFUSED.iter().all(|refusal| refusal.0 != function.name());
     let names = Function::ALL.into_iter().filter(is_there).map(|function| {
-        let at = ["", "@left_foot"][usize::from(function.is_of_hand())];
+        let is_of_hand = function.is_of_hand();
+        let at = if is_of_hand { "@left_foot" } else { "" };
         format!("{}{at}", function.name())
     });
     names.collect::<Vec<_>>().join(", ")

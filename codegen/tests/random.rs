@@ -113,9 +113,13 @@ fn file(random: &mut Random) -> String {
         let [alpha, a, constant, offset] = picked;
         let mass = ["1", "0.5", "1e9", "1e-9", "17.4"][random.below(5)];
         let com = [(); 3].map(|()| pick(random, NUMBERS, 6)).join(", ");
-        let tensors = "0, 0, 0, 0, 0, 0|1, 1, 1, 0, 0, 0|0.3, 0.4, 0.5, 0.01, -0.02, 0.03|\
-                       1e-9, 1e-9, 1e-9, 0, 0, 0";
-        let tensor = tensors.split('|').nth(random.below(4)).unwrap();
+        const TENSORS: [&str; 4] = [
+            "0, 0, 0, 0, 0, 0",
+            "1, 1, 1, 0, 0, 0",
+            "0.3, 0.4, 0.5, 0.01, -0.02, 0.03",
+            "1e-9, 1e-9, 1e-9, 0, 0, 0",
+        ];
+        let tensor = TENSORS[random.below(TENSORS.len())];
         text += &format!(
             "[[joint]]\nkind = \"{kind}\"\nalpha = {alpha}\na = {a}\n{key} = {constant}\n\
              offset = {offset}\nmass = {mass}\ncom = [{com}]\ninertia = [{tensor}]\n"

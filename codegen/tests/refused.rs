@@ -143,7 +143,12 @@ fn an_arm_without_mass_has_kinematics_alone() {
     let source = support::source("planar2r", "")
         .replace("mass = 1\n", "mass = 0\n")
         .replace("0.08333333333333333", "0");
-    for function in "inverse_dynamics momentum reaction_wrenches a=jacobian+gravity".split(' ') {
+    for function in [
+        "inverse_dynamics",
+        "momentum",
+        "reaction_wrenches",
+        "a=jacobian+gravity",
+    ] {
         let said = Case::read(&source, &format!("outputs: {function}")).refusal();
         assert!(said.starts_with("no link has mass, "), "{said}");
     }

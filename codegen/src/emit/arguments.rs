@@ -43,18 +43,18 @@ pub(super) fn places(robot: &Robot) -> String {
     let mut say = |doc: &str, name: &str, place: usize| {
         text += &format!("/// {doc}\npub const {name}: usize = {place};\n");
     };
-    let (entries, of) = match robot.floating {
+    let (lists, list) = match robot.floating {
         None => ("a velocity", "arguments"),
         Some(_) => ("velocities, accelerations and torques", "velocities"),
     };
-    let doc = format!("The number of entries of {entries}.");
+    let doc = format!("The number of entries of {lists}.");
     say(&doc, "NV", coordinates);
     for (name, place) in &places.velocities {
         let doc = match robot.joint_of(*place) {
             None => {
                 "The base's first place in them: linear x, y, z, then angular x, y, z.".to_owned()
             }
-            Some(joint) => format!("The place of joint {} in {of}.", joint + 1),
+            Some(joint) => format!("The place of joint {} in {list}.", joint + 1),
         };
         say(&doc, name, *place);
     }
@@ -193,13 +193,13 @@ fn load_doc(setup: &Setup) -> &'static str {
 }
 
 fn methods(kind: &str, none: &str, doc: &[String], scalar: ScalarType) -> String {
-    let none = format!("/// {none}\npub");
-    let methods = checked::rust(scalar == ScalarType::F32, kind).replacen("pub", &none, 1);
+    let none_doc = format!("/// {none}\npub");
+    let code = checked::rust(scalar == ScalarType::F32, kind).replacen("pub", &none_doc, 1);
     let (new, doc) = ("pub const fn", comment("///", doc));
     let documented = format!(
         "/// A body of these numbers; `None` if no body has them.\n///\n{doc}#[must_use]\n{new}"
     );
-    indented(&methods.replace(new, &documented))
+    indented(&code.replace(new, &documented))
 }
 
 fn bodies(text: &mut String, setup: &Setup, scalar: ScalarType) {
@@ -249,8 +249,8 @@ pub(super) fn payload_c(setup: &Setup, names: &Names) -> (Vec<String>, String) {
     doc.extend(payload(setup, dialect.scalar));
     let symbols = names.symbols(Function::Load);
     let is_single = dialect.scalar == ScalarType::F32;
-    let both = [symbols.prefix.as_str(), &symbols.macros];
-    let text = checked::c(is_single, dialect.function, both, "payload");
+    let prefixes = [symbols.prefix.as_str(), &symbols.macros];
+    let text = checked::c(is_single, dialect.function, prefixes, "payload");
     (doc, indented(&text))
 }
 
@@ -259,7 +259,7 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
     let (dialect, symbols) = (names.dialect(), names.symbols(Function::Load));
     let (scalar, is_single) = (dialect.scalar, dialect.scalar == ScalarType::F32);
     let mut items = Vec::new();
-    let both @ [prefix, macros] = [symbols.prefix.as_str(), &symbols.macros];
+    let prefixes @ [prefix, macros] = [symbols.prefix.as_str(), &symbols.macros];
     if setup.has(RuntimeParameter::Bodies) {
         let mut doc = Vec::from(paragraph([
             "The body of a link. `numbers` has [0] its `mass`, [1] to [3] its `com` and [4] to [9] its",
@@ -267,7 +267,7 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
             "",
         ]));
         doc.extend(body(setup, scalar));
-        let text = checked::c(is_single, dialect.function, both, "body");
+        let text = checked::c(is_single, dialect.function, prefixes, "body");
         items.push((doc, indented(&text)));
         let kept = match setup.zeros() {
             [] => "",
@@ -279,7 +279,12 @@ pub(super) fn bodies_c(setup: &Setup, names: &Names) -> Vec<(Vec<String>, String
         let mut doc = vec![of_links(setup)];
         doc.extend(said.lines().map(String::from));
         let count = setup.body_links().len();
-        let text = checked::c_bodies(is_single, dialect.function, both, (count, setup.zeros()));
+        let text = checked::c_bodies(
+            is_single,
+            dialect.function,
+            prefixes,
+            (count, setup.zeros()),
+        );
         items.push((doc, indented(&text)));
         let kind = format!("{prefix}_bodies_t into[{macros}_RESTRICT 1]");
         let into = [kind.as_str(), "into->bodies"];

@@ -225,8 +225,8 @@ pub(crate) fn write(
             for quantity in function.quantities() {
                 let entries = 0..quantity.len(sizes);
                 let (rows, robot) = (setup.rows(), setup.robot());
-                let units = entries.map(|i| quantity.unit(i, rows, sizes, robot));
-                let units = units_in_order(units, quantity.shape().0.len() > 1);
+                let entry_units = entries.map(|i| quantity.unit(i, rows, sizes, robot));
+                let units = units_in_order(entry_units, quantity.shape().0.len() > 1);
                 doc.push(format!("{}{units}", c99::shaped(*quantity, sizes)));
             }
             comment(&mut text, &doc);

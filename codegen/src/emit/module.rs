@@ -255,7 +255,10 @@ pub(super) fn function_doc(
 ) -> Vec<String> {
     let setup = job.setup;
     let is_changed = generated.admitted.is_some();
-    let before = ["", ", before anything was left out"][usize::from(is_changed)];
+    let before = match is_changed {
+        true => ", before anything was left out",
+        false => "",
+    };
     let mut lines = vec![
         generated.function.summary().to_owned(),
         String::new(),

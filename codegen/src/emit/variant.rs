@@ -106,8 +106,10 @@ fn states(variant: &Variant, setup: &Setup) -> Vec<String> {
     }
     if variant.load.is_some() {
         lines.push(String::new());
-        let is_default = setup.robot().payload_range.is_none();
-        let default = ["", " (no range is given)"][usize::from(is_default)];
+        let default = match setup.robot().payload_range {
+            Some(_) => "",
+            None => " (no range is given)",
+        };
         lines.push(format!("Payloads: {}{default}.", payloads(setup)));
     }
     lines

@@ -186,12 +186,12 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<GeneratedCode, Gener
     let mut emitted = Vec::new();
     // Headers have all scalars in one text.
     for ((_, codes), text) in codes.iter().zip(texts.iter().cycle()) {
-        let words = match request.language {
+        let tokens = match request.language {
             Language::Rust => Text::rust(text),
             Language::C | Language::Cuda => Text::c(text),
         };
         for (generated, code) in functions.iter().zip(codes) {
-            emitted.push(read_back(job, &words, generated, code)?);
+            emitted.push(read_back(job, &tokens, generated, code)?);
         }
     }
     contradiction::check(setup, &functions, &emitted)?;
@@ -393,8 +393,8 @@ fn all_proved(job: &Job<'_>) -> Outcome<FunctionsInScalars> {
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
     let mut functions = outcome?;
-    let is_apart = |function: &GeneratedFunction| function.program.loops.is_empty();
-    if job.request.limbs == LimbLayout::Lanes && functions.iter().all(is_apart) {
+    let has_no_lanes = |function: &GeneratedFunction| function.program.loops.is_empty();
+    if job.request.limbs == LimbLayout::Lanes && functions.iter().all(has_no_lanes) {
         let message = "`limbs: lanes`: no function has lanes: torques, D, accelerations and slopes have, of limbs \
                        with the same joints whose numbers are zero in the same places";
         return Err(GenerateError::refused(None, message, "leave `limbs` out"));
@@ -496,19 +496,19 @@ fn without_vain_steps(program: Program) -> Program {
 
 fn read_back(
     job: &Job<'_>,
-    text: &Result<Text<'_>, Fault>,
+    tokens: &Result<Text<'_>, Fault>,
     generated: &GeneratedFunction,
     code: &Code,
 ) -> Outcome<RunnableCode> {
     let request = job.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
-    let words = text.as_ref().map_err(|error| fail(error.to_string()))?;
+    let text = tokens.as_ref().map_err(|error| fail(error.to_string()))?;
     let signature = Signature::of(&generated.program, scalar);
     let names = Names::new(&request.module_name(job.robot), request.language, scalar);
     let has_many = request.batch && columns::are_there(signature.function, request.language);
     let read =
-        Code::read(words, &signature, &names, has_many).map_err(|error| fail(error.to_string()))?;
+        Code::read(text, &signature, &names, has_many).map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(difference.to_string()));
     }

@@ -58,9 +58,9 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         return Err(refused(None, message, "leave `formulation` out"));
     }
     let is_full = |function: &&Function| function.payload_dependence() == PayloadDependence::Full;
-    let mut of_bodies = [RuntimeParameter::Payload, RuntimeParameter::Bodies].into_iter();
+    let mut body_parameters = [RuntimeParameter::Payload, RuntimeParameter::Bodies].into_iter();
     if let Some(&function) = request.functions.iter().find(is_full)
-        && let Some(parameter) = of_bodies.find(|parameter| setup.has(*parameter))
+        && let Some(parameter) = body_parameters.find(|parameter| setup.has(*parameter))
     {
         let name = parameter.name();
         let message = format!(

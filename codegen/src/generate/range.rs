@@ -80,8 +80,8 @@ pub(super) fn overflow(robot: &Robot, program: &Program, scalar: ScalarType) -> 
     if program.divides() || !program.arguments.iter().all(is_bounded) {
         return None;
     }
-    let overflows = overflows(program, scalar, &InputBox::of(robot).ok()?);
-    let (first, others) = overflows.split_first()?;
+    let warnings = overflows(program, scalar, &InputBox::of(robot).ok()?);
+    let (first, others) = warnings.split_first()?;
     let (function, more) = (program.function, others.len());
     Some(format!(
         "`{function}` in {scalar}, inside the robot's limits: {first}; {more} more like it"

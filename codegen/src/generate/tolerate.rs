@@ -106,11 +106,12 @@ fn in_scalars(
             None => (budget.unedited(scalars, &allowed)?, false),
         });
     }
-    let chosen = |(budget, start): (&Budget<'_>, (VariantSet, bool))| {
+    let mut variant_sets = Vec::new();
+    for (budget, start) in budgets.iter().zip(starts) {
         let allowed = budget.allowed(tolerance);
-        chosen(job, budget, start, &allowed, scalars, meter)
-    };
-    budgets.iter().zip(starts).map(chosen).collect()
+        variant_sets.push(chosen(job, budget, start, &allowed, scalars, meter)?);
+    }
+    Ok(variant_sets)
 }
 
 /// Returns the variant of a plan: its bounds are found anew.

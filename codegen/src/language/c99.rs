@@ -98,8 +98,8 @@ pub(crate) fn head(program: &Program, names: &Names, is_told: bool) -> String {
             parameters.push(format!("{float} {name}[{restrict} {length}]"));
         }
     }
-    let (words, name) = (names.dialect().function, names.of(&name));
-    format!("{words} {result} {name}({})", parameters.join(", "))
+    let (qualifiers, name) = (names.dialect().function, names.of(&name));
+    format!("{qualifiers} {result} {name}({})", parameters.join(", "))
 }
 
 fn written(function: Function) -> Vec<&'static str> {
@@ -160,8 +160,9 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         }
     }
     if let Some(called) = &called {
-        let lines = called.lines(names);
-        lines.iter().for_each(|statement| line(statement));
+        for statement in called.lines(names) {
+            line(&statement);
+        }
         for pair in by_call {
             for (name, is_sine) in taken(pair) {
                 let value = called.value(pair.joint, is_sine).unwrap_or_default();
@@ -175,8 +176,9 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
     for piece in &pieces {
         match piece {
             Piece::Shared(ids) => {
-                let statements = ids.iter().filter_map(|id| lines.statement(*id));
-                statements.for_each(|statement| line(&statement));
+                for statement in ids.iter().filter_map(|id| lines.statement(*id)) {
+                    line(&statement);
+                }
             }
             Piece::Lanes(block) => {
                 // clang would carry values from lane to lane in registers, and make no vectors.
@@ -186,12 +188,16 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
                     array.map(|array| format!("{}({array});", names.constant("FORGET")))
                 };
                 let [read, written] = [&block.read, &block.written].map(forget);
-                let before = block.before.iter().chain(&read).chain([&block.head]);
-                before.for_each(|statement| line(statement));
-                let rows = block.rows.iter().flat_map(|(_, lines)| lines);
-                rows.for_each(|statement| line(&format!("    {statement}")));
+                for statement in block.before.iter().chain(&read).chain([&block.head]) {
+                    line(statement);
+                }
+                for statement in block.rows.iter().flat_map(|(_, lines)| lines) {
+                    line(&format!("    {statement}"));
+                }
                 line("}");
-                written.iter().for_each(|statement| line(statement));
+                if let Some(statement) = &written {
+                    line(statement);
+                }
             }
         }
     }

@@ -258,9 +258,11 @@ pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
         near_enough = Some(when);
     }
     let loops = |load: &str| {
-        let far = near_enough.iter().map(|when| body(load, false, when));
-        let again: String = far.collect();
-        format!("    {simd}\n{}{again}", body(load, is_told, ""))
+        let again = near_enough
+            .as_ref()
+            .map(|skip_near| body(load, false, skip_near));
+        let far_states = again.unwrap_or_default();
+        format!("    {simd}\n{}{far_states}", body(load, is_told, ""))
     };
     let (loops, of_load) = match &columns.load {
         None => (loops(""), ""),

@@ -40,7 +40,7 @@ pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -
 pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
     let ids: Vec<Id> = code.dag.operations().map(|(id, ..)| id).collect();
     let lines = Lines::new(dialect, code);
-    write_shared(text, code, &lines, &ids, (ids.len() > FLAT, Id::MAX));
+    write_shared(text, code, &lines, &ids, ids.len() > FLAT, Id::MAX);
 }
 
 /// Writes operations outside of loops; `end` is the first one behind them.
@@ -49,7 +49,8 @@ fn write_shared(
     code: &Code,
     lines: &Lines<'_, Input>,
     ids: &[Id],
-    (is_cut, end): (bool, Id),
+    is_cut: bool,
+    end: Id,
 ) {
     Blocks {
         indent: "    ",
@@ -75,7 +76,7 @@ fn write_pieces<'c>(text: &mut String, code: &'c Code, dialect: Dialect) -> Line
             Piece::Shared(ids) => {
                 let next = pieces[place + 1..].iter().find_map(Piece::first);
                 let end = next.unwrap_or(Id::MAX);
-                write_shared(text, code, &lines, ids, (is_cut, end));
+                write_shared(text, code, &lines, ids, is_cut, end);
             }
             Piece::Lanes(lanes) => write_loop(text, code, lanes),
         }

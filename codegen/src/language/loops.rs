@@ -262,7 +262,10 @@ impl Dialect {
         let (head, [open, close]) = match self.language {
             Language::Rust => (format!("let {letter}{number} ="), ["[", "]"]),
             Language::C | Language::Cuda => {
-                let kind = ["", "static const "][usize::from(letter == "k")];
+                let kind = match letter {
+                    "k" => "static const ",
+                    _ => "",
+                };
                 let array = format!("{letter}{number}[{}][{lanes}]", rows.len());
                 let head = format!("{kind}{} {array} =", float(self.scalar));
                 (head, ["{", "}"])

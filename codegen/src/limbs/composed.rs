@@ -114,7 +114,9 @@ impl<'a, 'd> Composer<'a, 'd> {
         for (value, output) in part.exports.iter().zip(&graph.outputs) {
             let edge = edges[output.index()].negated_if(output.negative);
             match *value {
-                LaneOperand::Shared(id) => drop(self.shared.insert(id, edge)),
+                LaneOperand::Shared(id) => {
+                    self.shared.insert(id, edge);
+                }
                 LaneOperand::Row(row) => self.rows.entry(row).or_default().push(edge),
             }
         }

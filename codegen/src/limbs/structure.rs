@@ -224,19 +224,19 @@ impl Limbs {
         let mut count = 0;
         chain.map(|_| count += 1);
         let of_base = count - 1 - of_links.iter().map(Vec::len).sum::<usize>();
-        let places: BTreeMap<usize, LanePlace> = places(&self.classes).into_iter().collect();
+        let lane_places: BTreeMap<usize, LanePlace> = places(&self.classes).into_iter().collect();
         let links = of_links.iter().enumerate().flat_map(|(link, numbers)| {
             let numbers = 0..numbers.len();
             numbers.map(move |number| (link, number))
         });
         let mut links = std::iter::repeat_n(None, of_base).chain(links.map(Some));
         chain.map(|number| {
-            let place = links.next().flatten();
-            let place = place.and_then(|(link, place)| Some((*places.get(&link)?, place)));
-            let Some((lane_place, place)) = place else {
+            let entry = links.next().flatten();
+            let in_lane = entry.and_then(|(link, index)| Some((*lane_places.get(&link)?, index)));
+            let Some((lane_place, index)) = in_lane else {
                 return Symbol::constant(number);
             };
-            let of_limb = |limb: &Vec<usize>| of_links[limb[lane_place.link]][place].clone();
+            let of_limb = |limb: &Vec<usize>| of_links[limb[lane_place.link]][index].clone();
             let lanes: Vec<Exact> = self.classes[lane_place.class].iter().map(of_limb).collect();
             if lanes.iter().all(|other| other == number) {
                 return Symbol::constant(number);

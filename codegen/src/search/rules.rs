@@ -26,8 +26,9 @@ pub(super) fn signed(left: &str) -> Vec<String> {
     texts
 }
 
-static READ: LazyLock<Vec<(Pattern<ENode>, [Kind; 2])>> = LazyLock::new(|| {
-    let mut read = Vec::new();
+/// The rules' patterns in all orders of operands, each with the outer and the inner operation.
+static PATTERNS: LazyLock<Vec<(Pattern<ENode>, [Kind; 2])>> = LazyLock::new(|| {
+    let mut patterns = Vec::new();
     for &(name, left, outer, inner) in RULES {
         for text in signed(left) {
             let pattern = text.parse::<PatternAst<ENode>>();
@@ -42,10 +43,10 @@ static READ: LazyLock<Vec<(Pattern<ENode>, [Kind; 2])>> = LazyLock::new(|| {
                 }
             }
             let orders = orders.into_iter();
-            read.extend(orders.map(|left| (Pattern::new(left), [outer, inner])));
+            patterns.extend(orders.map(|left| (Pattern::new(left), [outer, inner])));
         }
     }
-    read
+    patterns
 });
 
 /// The e-nodes, for each one that was there, at which rules stop.
@@ -59,8 +60,8 @@ pub(super) fn saturate(classes: &mut Classes, iterations: usize) {
     let most = GROWTH * classes.bound();
     for _ in 0..iterations {
         let size = classes.bound();
-        let matches = classes.matches(READ.iter().map(|(left, _)| left));
-        for (rule_matches, (_, kinds)) in matches.into_iter().zip(READ.iter()) {
+        let matches = classes.matches(PATTERNS.iter().map(|(left, _)| left));
+        for (rule_matches, (_, kinds)) in matches.into_iter().zip(PATTERNS.iter()) {
             for class_match in &rule_matches {
                 for substitution in &class_match.substs {
                     if classes.bound() < most {

@@ -50,7 +50,8 @@ impl ParametersKey {
         }
         let load = setup.load().filter(|_| taken.contains(&Argument::Load));
         let numbers = load.map_or(&[][..], |load| &load.numbers);
-        // Two loads may be the same numbers of other unknowns; a payload's has no more lines than before.
+        // Loads of other links may have the same numbers, so the hash has the links, too. A payload
+        // is always on the last link: its hash has the numbers alone, as in existing plans.
         let mut lines = String::new();
         for parameter in RuntimeParameter::LOADING {
             if load.is_some() && setup.has(parameter) && parameter != RuntimeParameter::Payload {

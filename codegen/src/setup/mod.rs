@@ -170,8 +170,9 @@ impl Setup {
         let known: Vec<usize> = self.rows_with_bodies().collect();
         let mut bodies = Vec::new();
         for &link in links {
-            let behind = link.checked_add(self.robot.base_coordinates());
-            let row = behind.and_then(|behind| behind.checked_sub(1));
+            // Links count from one behind the rows of a base that floats, whose last is link 0.
+            let row_from_one = link.checked_add(self.robot.base_coordinates());
+            let row = row_from_one.and_then(|row| row.checked_sub(1));
             let Some(row) = row.filter(|row| known.contains(row)) else {
                 let first = usize::from(self.robot.floating.is_none());
                 let help = format!("links are {first} to {}", self.robot.rows().len());

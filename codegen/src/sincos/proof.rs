@@ -163,8 +163,10 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
         };
         let cell = Interval::new(end(cell), end(cell + 1)).unwrap_or(range);
         let (values, roundings) = ranges(kernel, scalar, cell);
-        let error = |edge| error(kernel, &values, &roundings, edge);
-        let roundoff = |edge: Option<Edge>| edge.map_or(0.0, error);
+        let roundoff = |edge: Option<Edge>| match edge {
+            Some(edge) => error(kernel, &values, &roundings, edge),
+            None => 0.0,
+        };
         let [sin, cos] = kernel.results().map(roundoff);
         worst.sin = worst.sin.max(sin);
         worst.cos = worst.cos.max(cos);

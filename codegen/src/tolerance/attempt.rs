@@ -92,11 +92,15 @@ pub fn attempt(
             let result = run.emitted.run_at(&state).get(output).copied();
             let truths = reference.run_program(&variant.exact, &state);
             let truth = truths.as_ref().and_then(|truths| truths.get(output));
-            let size = truth.map_or(f64::INFINITY, |x| x.error(result.unwrap_or(f64::NAN)));
-            let error = if size == 0.0 { 0.0 } else { size / scale };
+            let distance = truth.map_or(f64::INFINITY, |x| x.error(result.unwrap_or(f64::NAN)));
+            let error = if distance == 0.0 {
+                0.0
+            } else {
+                distance / scale
+            };
             let observed = &mut attempt.observed;
-            let most = observed.get_or_insert_with(|| vec![0.0; tops.len()]);
-            most[output] = most[output].max(error);
+            let largest = observed.get_or_insert_with(|| vec![0.0; tops.len()]);
+            largest[output] = largest[output].max(error);
             if error > bound && attempt.violation.is_none() {
                 attempt.violation = Some((output, state));
             }

@@ -206,16 +206,19 @@ impl<'a> Budget<'a> {
             worst: None,
         };
         let name = draft.emitted.function.name();
-        let find = || {
-            let mut findings = None;
+        let certified = || {
+            let mut results = None;
+            // A fault of any line, such as the load's, refuses the draft.
             for line in certify(&draft.with_load(), &claim, &source, &demand)?.lines {
-                let result = line.result?;
-                findings = findings.or((line.name == name).then_some(result.results));
+                let findings = line.result?;
+                if line.name == name && results.is_none() {
+                    results = Some(findings.results);
+                }
             }
-            findings.ok_or_else(|| Fault::Claim("the function is not in the file".into()))
+            results.ok_or_else(|| Fault::Claim("the function is not in the file".into()))
         };
         let results =
-            find().map_err(|fault| self.missed(Miss::Above, not_shown(&draft, &fault)))?;
+            certified().map_err(|fault| self.missed(Miss::Above, not_shown(&draft, &fault)))?;
         Ok(Variant {
             bounds: results.iter().map(|bound| bound.relative()).collect(),
             scales: results.iter().map(|bound| bound.scale).collect(),

@@ -57,9 +57,9 @@ pub(crate) fn is_definite(
     };
     let lower = (0..n).flat_map(|i| (0..=i).map(move |j| first + i * n + j));
     let entries: Vec<_> = lower.clone().map(|place| written[place].clone()).collect();
-    let most = |place: usize| off.map_or(0.0, |off| off[place]).next_up();
-    let errors: Vec<f64> = lower.map(most).collect();
-    domain.is_definite(&entries, &errors)
+    let bound = |place: usize| off.map_or(0.0, |off| off[place]).next_up();
+    let bounds: Vec<f64> = lower.map(bound).collect();
+    domain.is_definite(&entries, &bounds)
 }
 
 /// Returns why D of an exact program is not positive definite, or cannot be shown to be.
@@ -93,9 +93,9 @@ fn negative(program: &Program, limits: &InputBox) -> Option<usize> {
     let middle = limits.position.iter().map(|q| q.mid()).collect();
     let mut positions = std::iter::once(middle).chain(drawn);
     positions.find_map(|q| {
-        let d = code.run_at(&JointState::at_rest(q));
-        let d = (0..n).map(|i| d[first + i * n..][..n].to_vec());
-        let why = eliminated(d.collect()).err()?;
+        let results = code.run_at(&JointState::at_rest(q));
+        let rows = (0..n).map(|i| results[first + i * n..][..n].to_vec());
+        let why = eliminated(rows.collect()).err()?;
         why.is_negative.then_some(why.row)
     })
 }

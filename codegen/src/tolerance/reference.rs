@@ -202,8 +202,8 @@ impl Engine {
     /// Writes out what a program, which has the results of the exact one, differs by from that.
     fn differences(&self, program: &Program) -> Result<Vec<Polynomial>, Diagnostic> {
         let written = self.domain.write(&read(program)?, None).map_err(refused)?;
-        let less = |(x, exact): (&Polynomial, &Polynomial)| x.plus(&exact.negated());
-        Ok(written.iter().zip(&self.exact).map(less).collect())
+        let difference = |(x, exact): (&Polynomial, &Polynomial)| x.plus(&exact.negated());
+        Ok(written.iter().zip(&self.exact).map(difference).collect())
     }
 }
 

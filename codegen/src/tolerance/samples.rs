@@ -80,12 +80,12 @@ impl Samples {
         let mut values = vec![0.0; self.len()];
         let blocks = values.chunks_exact_mut(self.block());
         for (q, block) in self.positions.iter().zip(blocks) {
-            let loads = q.len() - self.loads.len();
+            let first_load = q.len() - self.loads.len();
             match input {
                 Input::Sin(joint) => block.fill(libm::sin(q[joint])),
                 Input::Cos(joint) => block.fill(libm::cos(q[joint])),
                 Input::Entry(Argument::Position, joint) => block.fill(q[joint]),
-                Input::Entry(Argument::Load, index) => block.fill(q[loads + index]),
+                Input::Entry(Argument::Load, index) => block.fill(q[first_load + index]),
                 Input::Entry(Argument::Gravity, index) => block.fill(q[self.joints + index]),
                 Input::Entry(argument, joint) => self.rate(argument, joint, block),
                 // What reads it has no bounds, and is refused before any search.

@@ -36,7 +36,7 @@ pub(super) fn check(setup: &Setup, program: &Program, emitted: &Program) -> Resu
 }
 
 fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str> {
-    let of = |joint: usize, kind: Option<JointKind>| match setup.robot().joints.get(joint) {
+    let of_joint = |joint: usize, kind: Option<JointKind>| match setup.robot().joints.get(joint) {
         None => Some("the robot has no such joint"),
         Some(_) if setup.lock(joint).is_some() => {
             Some("the joint is locked: its entries may not be read")
@@ -51,23 +51,23 @@ fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str>
             _ => None,
         },
     };
-    let load = Argument::Load.length(setup.sizes(emitted.function));
-    let wrong = match input {
-        Input::Sin(joint) | Input::Cos(joint) => of(joint, Some(JointKind::Revolute)),
+    let load_length = Argument::Load.length(setup.sizes(emitted.function));
+    let problem = match input {
+        Input::Sin(joint) | Input::Cos(joint) => of_joint(joint, Some(JointKind::Revolute)),
         // It rounds more than is bounded.
         Input::PerSpeed(_) => Some("no bound is known of what Coulomb friction reads of speeds"),
         Input::Entry(Argument::Load, index) => {
-            (index >= load).then_some("the load has no such number")
+            (index >= load_length).then_some("the load has no such number")
         }
         Input::Entry(Argument::Gravity, index) => {
             (index >= 3).then_some("gravity has three entries")
         }
-        Input::Entry(Argument::Position, joint) => of(joint, Some(JointKind::Prismatic)),
+        Input::Entry(Argument::Position, joint) => of_joint(joint, Some(JointKind::Prismatic)),
         Input::Entry(_, coordinate) => {
             let joint = setup.robot().joint_of(coordinate);
-            joint.and_then(|joint| of(joint, None))
+            joint.and_then(|joint| of_joint(joint, None))
         }
     };
-    let missing = !emitted.arguments.contains(&input.argument());
-    wrong.or(missing.then_some("the function has no such argument in this scene"))
+    let is_missing = !emitted.arguments.contains(&input.argument());
+    problem.or(is_missing.then_some("the function has no such argument in this scene"))
 }

@@ -78,14 +78,16 @@ impl AxisLosses {
         }
         // The motions: of a base that floats |u| and |ω|, then |ω| of each joint's link. Links behind
         // a joint that stands still turn with those before it.
-        let of_base: usize = if first > 0 { 2 } else { 0 };
+        let base_motions: usize = if first > 0 { 2 } else { 0 };
         let joints: Vec<usize> = (0..count).filter_map(joint).collect();
         let turning = |link: Option<usize>| {
             let mut links = successors(link, |&link| self.carriers[link]);
             let place = links.find_map(|link| joints.iter().position(|joint| *joint == link));
-            place.map_or(of_base.checked_sub(1), |place| Some(of_base + place))
+            place.map_or(base_motions.checked_sub(1), |place| {
+                Some(base_motions + place)
+            })
         };
-        let mut least = vec![0.0; of_base + joints.len()];
+        let mut least = vec![0.0; base_motions + joints.len()];
         let mut shares = vec![vec![0.0; least.len()]; count];
         if let Some([mass, moment, away]) = self.base {
             (least[0], least[1]) = (mass, moment);

@@ -152,7 +152,8 @@ fn expected(generated: &GeneratedCode, state: &[f64]) -> Vec<u64> {
 /// `what` names a folder; every compiler that is there makes the program with each of these flags.
 pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
     let (generated, language) = (case.generated(), case.request.language);
-    let batch = ["single", "batch"][usize::from(case.request.batch)];
+    let is_batch = case.request.batch;
+    let batch = if is_batch { "batch" } else { "single" };
     let folder = folder(&format!("{what}_{}_{batch}", language.name()));
     fs::write(folder.join("arm.h"), generated.text()).unwrap();
     fs::write(folder.join("main.c"), main_of(case, &generated)).unwrap();

@@ -36,7 +36,7 @@ pub trait Vector<T>: Floats<T> {
     /// Returns both values of a function for each.
     fn both(self, function: impl Fn(T) -> (T, T)) -> (Self, Self);
 
-    /// Computes sines and cosines, and returns whether they hold for all angles: not for far ones.
+    /// Computes sines and cosines; the flag is true if they hold for all angles, none being far.
     fn sincos<P: Products<T>, const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool);
 }
 

@@ -132,7 +132,7 @@ impl Subject<'_> {
             let (program, setting, load) = (self.program, self.setting, rounding.load.len());
             hidden::check(program, &read.loops, setting, load, points, self.work)?;
         }
-        let bounded = divides.iter().filter(|is_divided| !**is_divided).count();
+        let bounded = divides.iter().filter(|divides| !**divides).count();
         let steps = read.program.steps.len();
         self.work.spend(steps * (bounded + 4), 20)?;
         let over_box = rounding.bounds(&ranges, None);
@@ -350,8 +350,10 @@ fn worse(before: f64, error: f64) -> f64 {
 }
 
 pub(crate) fn bodies_of<'b>(bodies: &'b [(usize, Vec<BodyRange>)], name: &str) -> &'b [BodyRange] {
-    let of = bodies.iter().find(|entry| argument(name) == Some(entry.0));
-    of.map_or(&[], |entry| &entry.1)
+    let entry = bodies
+        .iter()
+        .find(|(place, _)| argument(name) == Some(*place));
+    entry.map_or(&[], |(_, ranges)| ranges)
 }
 
 pub(crate) fn ranges(

@@ -51,8 +51,10 @@ impl Domain {
         };
         let mut domain = without_load(&ranges)?;
         if let (Some(load), Some(place)) = (load, argument(LOAD)) {
-            let none = load_of_point(load, 0.0, [0.0; 3])?.into_iter();
-            domain.load = std::mem::replace(&mut ranges[place], none.map(Interval::ends).collect());
+            let bare = load_of_point(load, 0.0, [0.0; 3])?
+                .into_iter()
+                .map(Interval::ends);
+            domain.load = std::mem::replace(&mut ranges[place], bare.collect());
             domain.bare = Some(Box::new(without_load(&ranges)?));
         }
         Ok(domain)

@@ -42,14 +42,14 @@ pub(crate) fn check(
     work.spend(program.steps.len(), 6 * RESIDUE)?;
     let lost = || Fault::Claim("the program reads what is not there".into());
     let [first, second, point] = points;
-    let vain = |point| vain(program, loops, point, setting, load).ok_or_else(lost);
-    let ([one, twins], [other, others]) = (vain(first)?, vain(second)?);
-    if let Some(step) = twins.intersection(&others).min() {
+    let vain_at = |point| vain(program, loops, point, setting, load).ok_or_else(lost);
+    let ([alone, twins], [other_alone, other_twins]) = (vain_at(first)?, vain_at(second)?);
+    if let Some(step) = twins.intersection(&other_twins).min() {
         let why = "changes no result with its like in other lanes";
         return Err(refused(*step, why));
     }
     // A zero derivative is no proof: it is zero at an extremum, too.
-    let mut idle: Vec<usize> = one.intersection(&other).copied().collect();
+    let mut idle: Vec<usize> = alone.intersection(&other_alone).copied().collect();
     idle.sort_unstable();
     for step in idle {
         work.spend(program.steps.len(), 2 * RESIDUE)?;

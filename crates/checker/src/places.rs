@@ -114,8 +114,10 @@ mod tests {
 
     #[test]
     fn names_are_told_apart() {
-        let names = "FL hip|FL_hip|N||2nd|q_a|a|\"é\"|base".split('|');
-        let names: Vec<Option<&str>> = names.map(Some).collect();
+        let names = [
+            "FL hip", "FL_hip", "N", "", "2nd", "q_a", "a", "\"é\"", "base",
+        ];
+        let names = names.map(Some);
         let places = Places::new(&names, Some(vec![0, 4]));
         let line = |(name, place): &(String, usize)| format!("{name} {place}");
         let velocities: Vec<String> = places.velocities.iter().map(line).collect();

@@ -79,7 +79,10 @@ impl Ring {
         let count = setting.joints();
         if setting.sizes().coordinates > MAX_JOINTS {
             let most = MAX_JOINTS - setting.base();
-            let end = ["", " where the base floats"][usize::from(most < MAX_JOINTS)];
+            let end = match setting.base() {
+                0 => "",
+                _ => " where the base floats",
+            };
             let why = format!("under a tolerance at most {most} joints are checked{end}");
             return Err(of_robot(why));
         }

@@ -93,8 +93,8 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     if let Some(([csv, svg], folder)) = targets.zip(args.output.as_ref()) {
         let scene = in_scene(scene.as_ref().map(|scene| scene.name.as_str()));
         let title = format!("{}{scene}: {}", robot.name, exact.function);
-        let chart = drawn(&title, relative_to, &points);
-        let chart = sealed(Comment::Xml, "dalembert tradeoff", &chart);
+        let drawing = drawn(&title, relative_to, &points);
+        let chart = sealed(Comment::Xml, "dalembert tradeoff", &drawing);
         done.files = vec![(csv, table.csv()), (svg, chart)];
         for point in &points {
             let variant = &point.variant;
@@ -107,10 +107,10 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
                 robot.name,
                 point.tolerance
             );
-            let text = sealed(Comment::Line, &writer, &variant.text);
-            done.files.push((code, text));
-            let text = claim_of(robot, &source.robot_file, &setup, variant).write();
-            done.files.push((claim, text));
+            let code_text = sealed(Comment::Line, &writer, &variant.text);
+            done.files.push((code, code_text));
+            let claim_text = claim_of(robot, &source.robot_file, &setup, variant).write();
+            done.files.push((claim, claim_text));
         }
         done.notes.push(format!("wrote {}", folder.display()));
     }

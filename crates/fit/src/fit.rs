@@ -161,8 +161,8 @@ fn keep_file(model: &Model, directions: &[Vec<f64>], norms: &[f64], parameters: 
         values.iter().zip(norms).map(|(x, norm)| x * norm).collect()
     };
     let pairs = parameters.iter().zip(model.parameters());
-    let change: Vec<f64> = pairs.map(|(parameter, file)| parameter - file).collect();
-    let mut change = scaled(&change);
+    let changes: Vec<f64> = pairs.map(|(parameter, file)| parameter - file).collect();
+    let mut change = scaled(&changes);
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(directions.len());
     for direction in directions {
         let mut vector = scaled(direction);

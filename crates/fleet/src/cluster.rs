@@ -79,12 +79,14 @@ pub async fn executor(config: ExecutorProcessConfig, functions: Functions) -> Re
     let scheduler = format!("{}:{}", config.scheduler_host, config.scheduler_port);
     reach(&scheduler).await?;
     let mut registry = BallistaFunctionRegistry::default();
-    let scalars = functions.scalars.into_iter();
-    let named = scalars.map(|of| (of.name().to_owned(), of));
-    registry.scalar_functions.extend(named);
-    let aggregates = functions.aggregates.into_iter();
-    let named = aggregates.map(|of| (of.name().to_owned(), of));
-    registry.aggregate_functions.extend(named);
+    for function in functions.scalars {
+        let name = function.name().to_owned();
+        registry.scalar_functions.insert(name, function);
+    }
+    for function in functions.aggregates {
+        let name = function.name().to_owned();
+        registry.aggregate_functions.insert(name, function);
+    }
     let config = ExecutorProcessConfig {
         grpc_port: config.port + 1,
         executor_heartbeat_interval_seconds: HEARTBEAT,

@@ -56,8 +56,8 @@ impl Engine {
         limits: Limits,
     ) -> Result<Engine, Error> {
         let pool = Arc::new(GreedyMemoryPool::new(limits.memory as usize));
-        let runtime = RuntimeEnvBuilder::new().with_memory_pool(pool);
-        let runtime = runtime.build_arc()?;
+        let builder = RuntimeEnvBuilder::new().with_memory_pool(pool);
+        let runtime = builder.build_arc()?;
         let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
         Ok(Engine {
             functions: register(&context, name, robot),

@@ -20,8 +20,9 @@ pub struct Unfinished {
 impl Unfinished {
     /// Chooses a name in the same folder, so that what is there can be renamed.
     pub fn beside(name: &Path) -> Result<Unfinished, Error> {
-        let file = name.file_name().filter(|_| !name.is_dir());
-        let file = file.ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
+        let Some(file) = name.file_name().filter(|_| !name.is_dir()) else {
+            return Err(Error::new("it is a folder").at(name.display()));
+        };
         let is_lost = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.is_dir();
         if let Some(folder) = name.parent().filter(is_lost) {
             return Err(Error::new("the folder does not exist").at(folder.display()));

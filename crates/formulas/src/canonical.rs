@@ -139,13 +139,15 @@ impl Wave {
         let u: Vec<i32> = f.iter().map(|x| x.signum()).collect();
         let v: Vec<i32> = f.iter().zip(&u).map(|(f, u)| f - u).collect();
         let w: Vec<i32> = u.iter().zip(&v).map(|(u, v)| u - v).collect();
-        let (is_sine, rest) = (self.is_sine, if self.is_sine { 1.0 } else { -1.0 });
+        let is_sine = self.is_sine;
+        // sin(u + v) = 2 sin u cos v − sin(u − v), cos(u + v) = cos(u − v) − 2 sin u sin v.
+        let sign = if is_sine { 1.0 } else { -1.0 };
         let product = |factor: f64, parts: &[(bool, &Vec<i32>)]| {
             let mut factor = factor;
             let mut waves = Vec::new();
             for (is_sine, multiples) in parts {
-                let (sign, wave) = Wave::normal(*is_sine, (*multiples).clone());
-                factor *= sign;
+                let (wave_sign, wave) = Wave::normal(*is_sine, (*multiples).clone());
+                factor *= wave_sign;
                 if !wave.is_none() {
                     waves.push(wave);
                 }
@@ -158,9 +160,9 @@ impl Wave {
             vec![both, product(of_w, &[(is_sine, &w)])]
         };
         let mut alternatives = [
-            split(2.0 * rest, true, !is_sine, -rest),
+            split(2.0 * sign, true, !is_sine, -sign),
             vec![product(1.0, &[(is_sine, f)])],
-            split(2.0, false, is_sine, rest),
+            split(2.0, false, is_sine, sign),
         ];
         for terms in &mut alternatives {
             terms.retain(|(factor, _)| *factor != 0.0);

@@ -96,7 +96,8 @@ impl Formulas {
             .collect()
     }
 
-    /// Lists them by letter, joint, and what is added to q_i: `θ`, 3 and ` + pi/2`.
+    /// Lists the variables that are not q_i: the letter, the joint, and the sum's other part: `θ`,
+    /// 3 and ` + pi/2`.
     fn offsets(&self, angle: impl Fn(String) -> String) -> Vec<(&'static str, usize, String)> {
         let offset = |variable: &Variable| {
             let (letter, shift) = match &variable.offset {

@@ -74,9 +74,9 @@ pub struct Formulas {
     pub results: Vec<usize>,
 }
 
-/// A small arm's entries have at most so many products in the file's symbols.
+/// The most products in the file's symbols that an entry of a small arm has.
 const SMALL: usize = 12;
-/// And it has at most so many joints.
+/// The most joints of a small arm.
 const FEW_JOINTS: usize = 4;
 
 type Entries = Vec<(Symbol, Polynomial)>;
@@ -106,14 +106,14 @@ struct Builder<'a> {
     runs: Runs,
     tables: Vec<Table>,
     sources: Vec<Source>,
-    coefficients: Computed,
+    coefficients: PolynomialCoefficients,
     shared: SharedConstants,
 }
 
-type Computed = Coefficients<Polynomial>;
+type PolynomialCoefficients = Coefficients<Polynomial>;
 
 /// Coefficients, the table of their symbols, and the moments that rows are multiplied by.
-type InSymbols<C> = Result<(C, usize, Option<Rc<Moments>>), Diagnostic>;
+type WithSymbols<C> = (C, usize, Option<Rc<Moments>>);
 
 /// The place of the table of the robot file's own symbols.
 const OF_FILE: usize = 0;
@@ -195,7 +195,10 @@ impl<'a> Builder<'a> {
 
     /// Computes the coefficients of the robot, in the symbols of the file if they stay short, else in
     /// base parameters.
-    fn whole(&mut self, chain: &PosedChain<Polynomial>) -> InSymbols<Computed> {
+    fn whole(
+        &mut self,
+        chain: &PosedChain<Polynomial>,
+    ) -> Result<WithSymbols<PolynomialCoefficients>, Diagnostic> {
         let is_few = self.style != Style::Numbers && self.arm.variables.len() <= FEW_JOINTS;
         if is_few || self.style == Style::File {
             let coefficients = self.in_file(chain)?;
@@ -209,7 +212,10 @@ impl<'a> Builder<'a> {
         self.in_base_parameters(chain, "")
     }
 
-    fn in_file(&self, chain: &PosedChain<Polynomial>) -> Result<Computed, Diagnostic> {
+    fn in_file(
+        &self,
+        chain: &PosedChain<Polynomial>,
+    ) -> Result<PolynomialCoefficients, Diagnostic> {
         self.arm.coefficients(self.setup, chain, &chain.chain)
     }
 
@@ -217,7 +223,7 @@ impl<'a> Builder<'a> {
         &mut self,
         chain: &PosedChain<Polynomial>,
         mark: &str,
-    ) -> InSymbols<Computed> {
+    ) -> Result<WithSymbols<PolynomialCoefficients>, Diagnostic> {
         let bodies = BaseBodies::new(&self.arm, chain, mark);
         let mut parameters = Vec::new();
         for (parameter, value) in bodies.parameters.iter().zip(bodies.values) {
@@ -287,7 +293,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Computes a part of generalized D'Alembert: the coefficients of an arm that has it alone.
-    fn part(&mut self, quantity: Quantity) -> InSymbols<Entries> {
+    fn part(&mut self, quantity: Quantity) -> Result<WithSymbols<Entries>, Diagnostic> {
         let (part, mark) = match quantity {
             Quantity::InertiaRotation | Quantity::ChristoffelRotation => (Part::Rotation, "r"),
             _ => (Part::Translation, "t"),
@@ -382,7 +388,7 @@ impl<'a> Builder<'a> {
 }
 
 /// Lists the entries of D, h or c.
-fn named(coefficients: &Computed, quantity: Quantity) -> Entries {
+fn named(coefficients: &PolynomialCoefficients, quantity: Quantity) -> Entries {
     let entries = coefficients_of(coefficients, quantity).into_iter();
     let named = entries.map(|(indices, entry)| (quantity.entry(&indices), entry.clone()));
     named.collect()

@@ -115,8 +115,10 @@ pub(crate) fn file(
     let root = tree.base.as_ref().map_or(Parent::BASE, |_| base);
     for (index, (model_joint, link)) in joints.iter().zip(&tree.bodies).enumerate() {
         text.push_str("\n[[joint]]\n");
-        let parent = link.parent.map_or(root, |parent| &joint_names[parent]);
-        let parent = (link.parent != index.checked_sub(1)).then(|| quoted(parent));
+        let carrier = link.parent.map_or(root, |parent| &joint_names[parent]);
+        // The link before is the default.
+        let is_written = link.parent != index.checked_sub(1);
+        let parent = is_written.then(|| quoted(carrier));
         let name = Some(quoted(&joint_names[index]));
         lines(&mut text, [("name", name), ("parent", parent)]);
         writer.joint(&mut text, model_joint, link, options);

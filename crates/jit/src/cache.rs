@@ -125,7 +125,16 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
 /// One plan serves all functions and scalars that are searched for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     let mut search = load.asked.clone();
-    for option in "outputs scalar parameters bodies keep_zeros scene name".split(' ') {
+    const OF_FUNCTIONS: [&str; 7] = [
+        "outputs",
+        "scalar",
+        "parameters",
+        "bodies",
+        "keep_zeros",
+        "scene",
+        "name",
+    ];
+    for option in OF_FUNCTIONS {
         // All of them are options.
         let _ = search.set(option, "");
     }

@@ -8,9 +8,9 @@
 //!
 //! A library's sine has branches: which quarter turn, how large. Here there are none up to
 //! [`LARGEST`] ([`LARGEST_F32`]), so that one vector instruction computes as many angles as the
-//! processor has room for: two or four doubles, four or eight floats. Beyond, and for what is no
-//! number, the answer is libm's: exact reduction by Payne and Hanek's method, NaN for NaN and the
-//! infinities. One comparison for all angles together says whether that is needed.
+//! processor has room for: two or four doubles, four or eight floats. Beyond, and for NaN and the
+//! infinities, the answer is libm's: exact reduction by Payne and Hanek's method, and NaN. One
+//! comparison for all angles together says whether that is needed.
 //!
 //! The vectors are those of the crate `wide`, and all is inlined: what a compiler
 //! makes of loops over arrays, it tears apart next to scalar arithmetic (with AVX-512,

@@ -65,8 +65,9 @@ pub(crate) fn together<T: Vectored, const N: usize>(angles: &[T; N]) -> ([T; N],
 pub trait Vector<T: Angle>: Floats<T> {
     const LANES: usize;
 
-    /// Sines and cosines of so many angles from one on, and whether the polynomials were for all of
-    /// them. The last fills what is past it: with zeros, compilers would leave out the vector.
+    /// Computes sines and cosines of `LANES` angles from `start` on; returns true if all of them
+    /// are in the polynomials' range. Past the end the last angle is repeated: of zeros, compilers
+    /// would leave out the vector.
     fn sincos<const N: usize>(
         angles: &[T; N],
         sines: &mut [T; N],

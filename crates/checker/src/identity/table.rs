@@ -120,6 +120,10 @@ pub fn length(axis: char, sizes: Sizes) -> usize {
     }
 }
 
+fn ensure(holds: bool) -> Option<()> {
+    holds.then_some(())
+}
+
 impl Field {
     /// Reads a result as the table has it: `h=symbols[nnn]`.
     fn read(word: &'static str) -> Option<Field> {
@@ -153,16 +157,16 @@ impl Field {
                 }
             }
         }
-        view.rows.is_sorted_by(|a, b| a < b).then_some(())?;
+        ensure(view.rows.is_sorted_by(|a, b| a < b))?;
         // A pose has no axes of motion, and of what acts at a frame all six components are given.
         let has_no_axes = self.quantity == "pose" || self.is_of_contact();
         let is_whole = self.acts() || has_no_axes && view.axes.is_empty();
-        (self.moves() || view.rows.is_empty() && is_whole).then_some(())?;
+        ensure(self.moves() || view.rows.is_empty() && is_whole)?;
         let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
         let is_name = |name: &str| !name.is_empty() && name.chars().all(is_letter);
         let mut names = view.frame.split(',');
         let is_one = !view.frame.contains(',') || self.is_of_contact();
-        (is_one && names.all(is_name)).then_some(())?;
+        ensure(is_one && names.all(is_name))?;
         self.name = format!("{}_{}", self.name, text.replace([':', ','], "_"));
         self.view = view;
         Some(self)

@@ -133,12 +133,12 @@ async fn watched(
 ) -> Result<String, Error> {
     let n = job.robot.joints();
     // Half of the residuals are below it, whatever a contact does to the others.
-    let noise = |residuals: &Residuals| -> Vec<f64> {
-        let noise = |i| (residuals.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE);
-        (0..n).map(noise).collect()
+    let noise_of = |residuals: &Residuals| -> Vec<f64> {
+        let of_joint = |i| (residuals.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE);
+        (0..n).map(of_joint).collect()
     };
     let (noises, bar): (Vec<Vec<f64>>, f64) = match &args.quiet {
-        None => (log_residuals.iter().map(noise).collect(), args.bar),
+        None => (log_residuals.iter().map(noise_of).collect(), args.bar),
         Some(quiet) => {
             let quiet = LogArgs {
                 logs: vec![quiet.display().to_string()],
@@ -147,7 +147,7 @@ async fn watched(
             };
             let mut quiet = Job::new(&quiet, false, &job.going).await?;
             let quiet_residuals = summaries(&mut quiet).await?;
-            let noise = noise(&quiet_residuals[0]);
+            let noise = noise_of(&quiet_residuals[0]);
             let (robot, quiet_noise) = (job.robot.clone(), noise.clone());
             let levels = quiet.each(move |_, log, going| {
                 Ok(contacts(robot.as_ref(), log, &quiet_noise, f64::MAX / 4.0, going)?.1)

@@ -213,10 +213,12 @@ impl Scene {
         let mut random = Random::new(recording.seed ^ 0x636f_6e74);
         let collisions = self.collisions(&mut random);
         let n = self.noise.len();
-        let (mut names, mut chosen) = (canonical_names(n), &[0, 1, 2, 3][..]);
+        let mut names = canonical_names(n);
+        let mut written = vec![0, 1, 2, 3];
         if self.args.encoders_only {
             names.retain(|name| !name.starts_with("qd"));
-            chosen = &[0, 3];
+            // Positions and torques.
+            written = vec![0, 3];
         }
         let compression = match self.args.zstd {
             true => Compression::ZSTD(ZstdLevel::default()),
@@ -239,7 +241,7 @@ impl Scene {
                 }),
                 None => self.followed(&recording, &collisions, first, &time, &mut random)?,
             };
-            table.write("", &time, chosen.iter().map(|k: &usize| &columns[*k][..]))?;
+            table.write("", &time, written.iter().map(|k: &usize| &columns[*k][..]))?;
             progress.add((last - first) as u64);
         }
         table.close()?;

@@ -8,7 +8,6 @@ use nalgebra::{DMatrix, DVector};
 use super::conditions::{Condition, conditions};
 use super::{Entry, Finder, entries};
 use crate::arm::SymbolicArm;
-use crate::naming::SymbolTable;
 use crate::number::Number;
 use crate::ring::{Monomial, Polynomial, Symbols};
 use crate::symbol::{Definition, Symbol};
@@ -61,14 +60,15 @@ struct Candidate {
     size: f64,
 }
 
-/// Numbers with their places among symbols, those that tell the size of a link, and those that may
-/// change.
-type Table<'a> = (
-    &'a [Definition<Number>],
-    fn(usize) -> Option<Symbols>,
-    fn(&Symbol) -> bool,
-    fn(&Symbol) -> bool,
-);
+/// Numbers of one kind.
+struct Table<'a> {
+    numbers: &'a [Definition<Number>],
+    /// The place of a number among the symbols.
+    place: fn(usize) -> Option<Symbols>,
+    /// True if a number tells the size of its link.
+    has_size: fn(&Symbol) -> bool,
+    may_change: fn(&Symbol) -> bool,
+}
 
 /// The values of x², x and 1 in a polynomial of degree two.
 type Quadratic = [Number; 3];
@@ -100,30 +100,38 @@ impl Definitions {
         let is_centre = |symbol: &Symbol| symbol.text.contains('\u{304}');
         let is_inertia =
             |symbol: &Symbol| symbol.text.starts_with('I') && !symbol.text.ends_with('a');
-        let SymbolTable {
-            lengths,
-            parameters,
-            ..
-        } = &self.arm.symbols;
-        let tables: [Table<'_>; 2] = [
-            (lengths, Symbols::length, |_| true, is_centre),
-            (parameters, Symbols::parameter, is_inertia, is_inertia),
+        let tables = [
+            Table {
+                numbers: &self.arm.symbols.lengths,
+                place: Symbols::length,
+                has_size: |_| true,
+                may_change: is_centre,
+            },
+            Table {
+                numbers: &self.arm.symbols.parameters,
+                place: Symbols::parameter,
+                has_size: is_inertia,
+                may_change: is_inertia,
+            },
         ];
         let mut candidates = Vec::new();
         for row in 0..self.arm.arm.links.len() {
-            for (numbers, place, has_size, may_change) in tables {
-                let mut of_row: Vec<_> = numbers.iter().enumerate().collect();
-                of_row.retain(|(_, number)| number.row == Some(row) && has_size(&number.symbol));
+            for table in &tables {
+                let mut of_row: Vec<_> = table.numbers.iter().enumerate().collect();
+                of_row.retain(|(_, n)| n.row == Some(row) && (table.has_size)(&n.symbol));
                 let sizes = of_row.iter().map(|(_, number)| number.value.magnitude());
                 let size = sizes.fold(1e-9, f64::max);
-                of_row.retain(|(_, number)| may_change(&number.symbol));
+                of_row.retain(|(_, number)| (table.may_change)(&number.symbol));
                 for (index, Definition { symbol, value, .. }) in of_row {
-                    candidates.extend(place(index).map(|place| Candidate {
+                    let Some(place) = (table.place)(index) else {
+                        continue;
+                    };
+                    candidates.push(Candidate {
                         symbol: symbol.clone(),
                         place,
                         value: *value,
                         size,
-                    }));
+                    });
                 }
             }
         }

@@ -30,10 +30,11 @@ impl Mjcf<'_, '_, '_> {
             let before_gear = self.force(element);
             let geared = before_gear.map(|force| force.map(|value| value * gear.value.abs()));
             let force = geared.filter(|force| force.value.is_positive());
-            let limit = match limits.remove(&joint) {
-                None => force,
+            let limit = match (limits.remove(&joint), force) {
+                (None, force) => force,
+                (Some(Some(before)), Some(force)) => Some(added(Some(before), force)),
                 // One without a limit leaves none.
-                Some(before) => before.and_then(|before| Some(added(Some(before), force?))),
+                (Some(_), _) => None,
             };
             limits.insert(joint, limit);
             self.rotor(element, joint, gear, &of);

@@ -76,8 +76,9 @@ impl Mjcf<'_, '_, '_> {
             true => "made_for_all",
             false => "made_elsewhere",
         };
-        made.iter()
-            .for_each(|made| self.reader.report(id, &made.at, &[&made.tag]));
+        for element in &made {
+            self.reader.report(id, &element.at, &[&element.tag]);
+        }
         open.reverse();
         while let Some((item, on)) = open.pop() {
             let inside = self.body(&item, on);

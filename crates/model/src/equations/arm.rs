@@ -80,9 +80,14 @@ impl<S: Scalar> JointPosition<S> {
         match self {
             JointPosition::Prismatic(q) => JointPosition::Prismatic(follower.motion(q)),
             JointPosition::Revolute(pair) => {
-                let (more, backward) = (1..follower.turns.unsigned_abs(), follower.turns < 0);
-                let turned = more.fold(pair.clone(), |turned, _| turned.compose(pair));
-                JointPosition::Revolute(if backward { turned.reversed() } else { turned })
+                let repeats = 1..follower.turns.unsigned_abs();
+                let turned = repeats.fold(pair.clone(), |turned, _| turned.compose(pair));
+                let is_backward = follower.turns < 0;
+                JointPosition::Revolute(if is_backward {
+                    turned.reversed()
+                } else {
+                    turned
+                })
             }
         }
     }

@@ -154,8 +154,9 @@ fn first_moment<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Vector<S> {
     let (mut moment, mut mass) = (zero_vector(), S::zero());
     arm.inward(|i, arrived: Vec<(usize, (Vector<S>, S))>| {
         let (mut tree_moment, mut tree_mass) = (zero_vector(), S::zero());
-        for (_, (moment, mass)) in &arrived {
-            (tree_moment, tree_mass) = (sum(&tree_moment, moment), plus(&tree_mass, mass));
+        for (_, (outer_moment, outer_mass)) in &arrived {
+            tree_moment = sum(&tree_moment, outer_moment);
+            tree_mass = plus(&tree_mass, outer_mass);
         }
         let (step, link) = (arm.step(i, at), &arm.links[i]);
         tree_moment = sum(&tree_moment, &scaled(&link.mass, &link.com));

@@ -328,7 +328,13 @@ mod tests {
             assert_eq!(angle.to_string(), text);
         }
         assert_eq!(Angle::parse("2*atan(0)"), Ok(Angle::default()));
-        for text in "atan(1/3) 3*atan(1/3) 2*atan(1/3 2*atan(pi) 2*atan()".split(' ') {
+        for text in [
+            "atan(1/3)",
+            "3*atan(1/3)",
+            "2*atan(1/3",
+            "2*atan(pi)",
+            "2*atan()",
+        ] {
             assert!(Angle::parse(text).is_err(), "{text}");
         }
     }

@@ -246,8 +246,8 @@ impl Formula for HeldAcceleration {
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
         let jacobian = at.formulation.contact_jacobians(at.arm, at.at);
         let pushed = products(&columns_of(&jacobian), &written_space(at).forces());
-        let pushed = picked(&pushed, &free(&at.motion.moves));
-        differences(&rest(at, qdd, &at.motion.tau), &pushed)
+        let pushed_joints = picked(&pushed, &free(&at.motion.moves));
+        differences(&rest(at, qdd, &at.motion.tau), &pushed_joints)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

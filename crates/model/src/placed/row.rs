@@ -74,11 +74,11 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let u = &here.axes[2];
     let d = dot(&opposite(&here.origin), u);
     let [ahead, _, up] = identity();
-    let turn = turn(here, &ahead);
+    let theta = turn(here, &ahead);
     let tilt = Angle::recovered(&length(&cross(u, &up)), &dot(u, &up));
-    let keeps = tilt.quarter_turns().is_some_and(|n| n % 2 == 0) && turn.quarter_turns().is_some();
-    let (theta, x) = match keeps {
-        true => (turn, ahead),
+    let is_parallel = tilt.quarter_turns().is_some_and(|n| n % 2 == 0);
+    let (theta, x) = match is_parallel && theta.quarter_turns().is_some() {
+        true => (theta, ahead),
         false => (Angle::default(), here.axes[0]),
     };
     Row {

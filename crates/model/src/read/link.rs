@@ -66,7 +66,8 @@ pub(super) fn meant(joints: &[Joint], text: &str) -> String {
 pub(super) fn parents(cx: &mut Context, robot: &Robot, rows: &[Read]) -> Vec<Option<Parent>> {
     const HELP: &str =
         "parent = 2, or the name of the joint whose link carries this one; \"base\" for the base";
-    // A parent that is not understood is of a robot that branches: nothing else is wrong with that.
+    // After a parent that cannot be read the robot counts as branched, so that its one error is
+    // not followed by errors of a chain.
     let unknown = (rows.iter().any(|joint| joint.placed.is_some())).then_some(Parent::Base);
     let parents = rows.iter().enumerate().map(|(row, joint)| {
         let value = joint.parent?;

@@ -103,8 +103,8 @@ impl Robot {
         }
         findings.frames(self);
         findings.bodies("limits/payload", &self.payload_range);
-        let is_longer = |note: &String| values::one_line(note) != *note;
-        if self.notes.iter().any(is_longer) {
+        let has_control = |note: &String| values::one_line(note) != *note;
+        if self.notes.iter().any(has_control) {
             let message = "a note has a character that controls text or turns its direction";
             findings.error("notes", message, "write each note in one line");
         }

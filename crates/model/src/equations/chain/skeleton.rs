@@ -136,10 +136,10 @@ impl<S: Scalar> Skeleton<S> {
                 JointKind::Prismatic => {
                     chain_link.axis = apply(&frame.turned, &unit_z());
                     chain_link.offset = sum(&frame.moved, &apply(&frame.turned, &slide));
-                    let turn = product(&frame.turned, &turn(&link.theta, ABOUT_Z));
+                    let turned = product(&frame.turned, &turn(&link.theta, ABOUT_Z));
                     chain_link.theta = SinCosPair::straight();
-                    frame.moved = apply(&turn, &reach);
-                    frame.turned = product(&turn, &rest);
+                    frame.moved = apply(&turned, &reach);
+                    frame.turned = product(&turned, &rest);
                 }
             }
             chain_link.body = body.carried(&frame.turned, &frame.moved);

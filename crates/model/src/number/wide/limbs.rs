@@ -13,7 +13,7 @@ const BITS: u32 = u64::BITS;
 /// The limbs of a product, or of a significand with as many bits again below it.
 type Double = [u64; 2 * LIMBS];
 
-/// Returns the top of a × b, shifted by one if its highest bit is the last but one, and whether.
+/// Returns the top of a × b with its highest bit set, and true if that took a shift by one.
 pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
     let mut limbs: Double = [0; 2 * LIMBS];
     for (i, &x) in a.iter().enumerate() {
@@ -29,8 +29,8 @@ pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
     (top(&limbs, shift), shift > 0)
 }
 
-/// Returns the top of a + b·2⁻ᵍ, and whether there is a bit more. The gap is at most a significand's
-/// bits, so nothing is lost before the cut.
+/// Returns the top of a + b·2⁻ᵍ, and true if the sum has one bit more. The gap is at most a
+/// significand's bits, so nothing is lost before the cut.
 pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
     let (mut limbs, below) = (wide(a), lowered(b, gap));
     let mut carry = false;
