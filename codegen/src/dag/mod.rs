@@ -3,6 +3,9 @@
 //! A [`Dag`] is a list of nodes, operands before users, and what it returns. Leaves are nodes as
 //! operations are, so that a constant is one wherever it is read. Negation is free, so it is no
 //! node: outputs and operands of a builder carry signs.
+//!
+//! Takes a formula over `Symbol`s; returns a [`Dag`]. `Builder` makes its nodes, [`Folding`] says what it
+//! simplifies on the way.
 
 pub(crate) mod builder;
 pub(crate) mod fusion;

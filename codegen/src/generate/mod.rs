@@ -1,4 +1,7 @@
 //! The one function that macro, build script and command call.
+//!
+//! Takes a robot and a [`Request`]; returns [`GeneratedCode`], the text with its claim, or a
+//! [`GenerateError`] and no text.
 
 pub(crate) mod contradiction;
 pub(crate) mod keep;

@@ -3,6 +3,9 @@
 //! A long search is run once; its programs, with exact constants, are kept in `<robot>.plan` and
 //! replayed: read, proved again, printed. A plan says which robot it is for by the hash of that
 //! robot, so an edited robot does not get the program of another.
+//!
+//! Takes a file's text; returns a [`Plan`], a list of [`Entry`]. The generator returns a `PlanUpdate`,
+//! which is written back.
 
 mod document;
 pub mod file;

@@ -1,4 +1,7 @@
 //! Straight-line code, and what it is made of.
+//!
+//! Takes a `Dag`; returns a [`Program`], whose constants are exact, and [`Code`], whose constants a
+//! [`ScalarType`] has rounded.
 
 pub(crate) mod code;
 mod difference;

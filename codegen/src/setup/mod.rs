@@ -18,6 +18,8 @@
 //! locked joints are not read. Results are over the [`rows`](Setup::rows), in the order of the
 //! scene: τ, h and c have an entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
+//!
+//! Takes a `Robot` and a `Scene`; returns a [`Setup`], and a [`Task`] for each function.
 
 pub(crate) mod base;
 mod friction;

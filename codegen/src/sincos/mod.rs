@@ -2,6 +2,9 @@
 //!
 //! A robot's joints have limits, so most angles need none of what a library's
 //! sine does for large ones; and a tolerance of 1e-6 needs no sixteen digits.
+//!
+//! Takes a program and the ranges of its angles; returns an [`AngleKernel`] for each joint: two
+//! polynomials with their proved `Errors`. [`SinCos`] names the other sources of sines.
 
 pub(crate) mod choose;
 pub(crate) mod forms;

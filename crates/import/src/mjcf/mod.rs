@@ -9,6 +9,8 @@
 //! - `mass`: the mass of a body, from its `inertial` or from simple shapes
 //! - `drive`: actuators, as limits of torque, armature and damping
 //! - `tie`: equalities and tendons
+//!
+//! Takes the root `Element` of a file; returns a `Model`, and reports to the `Reader` what it leaves out.
 
 mod defaults;
 mod drive;
