@@ -1,10 +1,13 @@
 """The examples do what they say; pictures where matplotlib is installed."""
 
+import doctest
 import importlib.util
 import sys
 from pathlib import Path
 
+import dalembert
 import pytest
+from dalembert import _arm
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 
@@ -19,6 +22,13 @@ def run(name, tmp_path):
     result = module.main(str(picture) if drawn else None)
     assert picture.exists() == drawn
     return result
+
+
+@pytest.mark.parametrize("module", [dalembert, _arm])
+def test_docstrings(module, monkeypatch):
+    monkeypatch.chdir(EXAMPLES.parents[2])
+    failed, tried = doctest.testmod(module)
+    assert tried >= 3 and failed == 0
 
 
 def test_gravity_compensation(tmp_path):

@@ -11,7 +11,16 @@ macro_rules! registry {
             $summary:literal $(, $field:ident: $value:expr)*;
         )*
     ) => {
-        /// A function that can be generated.
+        /// A function that can be generated: one of the list, several in one, or one at a frame.
+        ///
+        /// ```
+        /// use dalembert_model::outputs::Function;
+        ///
+        /// let torques = Function::parse("inverse_dynamics")?;
+        /// assert_eq!(torques, Function::InverseDynamics);
+        /// assert_eq!(Function::parse("torque=inverse_dynamics+gravity")?.name(), "torque");
+        /// # Ok::<(), dalembert_model::diagnostic::Diagnostic>(())
+        /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Function {
             $(#[doc = $summary] $function,)*

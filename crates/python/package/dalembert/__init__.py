@@ -1,8 +1,9 @@
 """Dynamics of robot arms: searched for, proved and compiled in memory for one arm.
 
 >>> import dalembert
->>> arm = dalembert.load("panda.urdf", tip="panda_link8")   # doctest: +SKIP
->>> tau = arm.inverse_dynamics(q, qd, qdd)                  # doctest: +SKIP
+>>> arm = dalembert.load("generated/robots/planar2r.toml")
+>>> arm.inverse_dynamics(q=[0.0, 0.0], qd=[0.0, 0.0], qdd=[1.0, 0.0])
+array([22.28666667,  5.73833333])
 
 Angles are in rad, lengths in m, masses in kg, torques in N·m, forces in N.
 """

@@ -47,8 +47,17 @@ class Limits(NamedTuple):
 class Arm:
     """An arm: its functions as methods, compiled for it.
 
-    Which there are, ``load`` was told. Each takes one state, arrays of shape ``(n,)``, or
+    ``load`` was told which there are. Each takes one state, arrays of shape ``(n,)``, or
     many, ``(N, n)``, broadcast against each other; see :class:`dalembert.Function`.
+
+    >>> import dalembert
+    >>> arm = dalembert.load("generated/robots/planar2r.toml", outputs=["gravity", "inertia"])
+    >>> arm.gravity([0.0, 0.0])
+    array([19.62 ,  4.905])
+    >>> arm.inertia([[0.0, 0.0], [0.0, 0.5], [0.0, 1.0]]).shape
+    (3, 2, 2)
+    >>> [joint.kind for joint in arm.joints]
+    ['revolute', 'revolute']
     """
 
     def __init__(self, native: _dalembert.Arm, name: str, options: dict[str, Any]) -> None:
