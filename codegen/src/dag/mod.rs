@@ -4,8 +4,8 @@
 //! operations are, so that a constant is one wherever it is read. Negation is free, so it is no
 //! node: outputs and operands of a builder carry signs.
 //!
-//! Takes a formula over `Symbol`s; returns a [`Dag`]. `Builder` makes its nodes, [`Folding`] says what it
-//! simplifies on the way.
+//! Takes a formula over `Symbol`s; returns a [`Dag`]. `Builder` makes its nodes, [`Folding`] says
+//! what it simplifies on the way.
 
 pub(crate) mod builder;
 pub(crate) mod fusion;

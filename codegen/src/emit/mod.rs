@@ -1,7 +1,7 @@
 //! The module of a robot: header, documentation, functions.
 //!
-//! Takes a `Job` and its [`GeneratedFunction`]s; returns the text of a file in Rust, C or CUDA. A function
-//! under a tolerance is printed from its `Variant`.
+//! Takes a `Job` and its [`GeneratedFunction`]s; returns the text of a file in Rust, C or CUDA. A
+//! function under a tolerance is printed from its `Variant`.
 
 pub(crate) mod arguments;
 mod c_sines;

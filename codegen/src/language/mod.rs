@@ -1,7 +1,7 @@
 //! Programs as flat text of a language, printed and read back.
 //!
-//! Takes `Code`; returns its text in a [`Language`], and from the text the same code again. `Dialect` is
-//! the table of a language, `Names` are the identifiers of a file.
+//! Takes `Code`; returns its text in a [`Language`], and from the text the same code again.
+//! `Dialect` is the table of a language, `Names` are the identifiers of a file.
 
 pub(crate) mod c99;
 pub(crate) mod called;

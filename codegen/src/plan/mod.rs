@@ -4,8 +4,8 @@
 //! replayed: read, proved again, printed. A plan says which robot it is for by the hash of that
 //! robot, so an edited robot does not get the program of another.
 //!
-//! Takes a file's text; returns a [`Plan`], a list of [`Entry`]. The generator returns a `PlanUpdate`,
-//! which is written back.
+//! Takes a file's text; returns a [`Plan`], a list of [`Entry`]. The generator returns a
+//! `PlanUpdate`, which is written back.
 
 mod document;
 pub mod file;

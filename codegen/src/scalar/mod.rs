@@ -4,8 +4,8 @@
 //! user waits for seconds of compiling. So symbols, residues, doubles, degrees and true values are
 //! cases of [`AnyScalar`], and the equations are compiled for it alone.
 //!
-//! Takes the arguments of a formula in one scalar; returns its results. `Degree` bounds the degree of a
-//! program in a proof, `TrueValue` is a number of 256 bits.
+//! Takes the arguments of a formula in one scalar; returns its results. `Degree` bounds the degree
+//! of a program in a proof, `TrueValue` is a number of 256 bits.
 
 pub(crate) mod degree;
 pub(crate) mod true_value;

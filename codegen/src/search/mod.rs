@@ -1,8 +1,8 @@
 //! The search for the fewest operations: discovery and extraction in turns, to a plateau; where
 //! there is time, from the start again, by other random numbers.
 //!
-//! Takes graphs of one function and an [`Effort`]; returns a cheaper graph, [`Searched`]. `Classes` is the
-//! e-graph, `Extraction` chooses a node of each class.
+//! Takes graphs of one function and an [`Effort`]; returns a cheaper graph, [`Searched`]. `Classes`
+//! is the e-graph, `Extraction` chooses a node of each class.
 
 mod discover;
 mod effort;

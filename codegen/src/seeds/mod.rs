@@ -1,7 +1,7 @@
 //! The formulations that a function's search can start from, each as a graph.
 //!
-//! Takes a `Task`; returns a [`Seed`], a graph with the [`Source`] that it comes from. `Tuning` carries a task
-//! through the descent to a [`ChainChoice`](tune::ChainChoice).
+//! Takes a `Task`; returns a [`Seed`], a graph with the [`Source`] that it comes from. `Tuning`
+//! carries a task through the descent to a [`ChainChoice`](tune::ChainChoice).
 
 pub(crate) mod chain;
 pub(crate) mod descent;

@@ -5,7 +5,8 @@
 //! - `error`: the reasons for which nothing is generated
 //! - `request`: what somebody wants of a robot; [`options`]: the table of its options
 //!
-//! Takes words of macro, build script, command or library; returns a [`Request`], or a [`GenerateError`].
+//! Takes words of macro, build script, command or library; returns a [`Request`], or a
+//! [`GenerateError`].
 
 mod error;
 pub(crate) mod options;

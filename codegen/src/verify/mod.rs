@@ -1,7 +1,7 @@
 //! Checks that trust neither the search nor the printer.
 //!
-//! Takes a program and its `Setup`; returns a `Proof` that it is the textbook's function, or a `Disproof`,
-//! and the errors of its rounding: `Rounding` by an estimate, `Reference` in 256 bits.
+//! Takes a program and its `Setup`; returns a `Proof` that it is the textbook's function, or a
+//! `Disproof`, and the errors of its rounding: `Rounding` by an estimate, `Reference` in 256 bits.
 
 pub(crate) mod accuracy;
 pub(crate) mod condition;

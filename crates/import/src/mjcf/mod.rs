@@ -10,7 +10,8 @@
 //! - `drive`: actuators, as limits of torque, armature and damping
 //! - `tie`: equalities and tendons
 //!
-//! Takes the root `Element` of a file; returns a `Model`, and reports to the `Reader` what it leaves out.
+//! Takes the root `Element` of a file; returns a `Model`, and reports to the `Reader` what it
+//! leaves out.
 
 mod defaults;
 mod drive;

@@ -1,6 +1,7 @@
 //! A URDF as a model. Where a value is wrong, the default of the format stands in its place.
 //!
-//! Takes the root `Element` of a file; returns a `Model`, and reports to the `Reader` what it leaves out.
+//! Takes the root `Element` of a file; returns a `Model`, and reports to the `Reader` what it
+//! leaves out.
 
 mod joint;
 
