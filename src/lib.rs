@@ -162,7 +162,7 @@ pub mod matrices;
 ///
 /// # Several at once
 ///
-/// Who wants several quantities at one state asks for one function of them, a
+/// For several quantities at one state, ask for one function of them, a
 /// bundle, which shares all work that they have in common:
 ///
 /// ```

@@ -222,7 +222,7 @@ fn tolerances_of_a_base_are_shown() {
         let (exact, emitted) = (variant.exact.in_doubles(), variant.emitted.in_doubles());
         let (_, states) = case.runtime(200, 8);
         for mut state in states {
-            // Of the box, and as long as gravity is.
+            // Gravity is drawn from the box, and gets its usual length.
             let length = state.g.iter().map(|x| x * x).sum::<f64>().sqrt();
             state.g.iter_mut().for_each(|x| *x *= 9.81 / length);
             let [found, expected] = [&emitted, &exact].map(|code| code.run_at(&state));

@@ -263,7 +263,7 @@ fn every_change_of_a_line_is_found() {
                     return Vec::new();
                 }
                 let mut others = vec![String::new()];
-                // Of a head in Rust its name is read; with a wrong one nobody's call compiles.
+                // The name in a head in Rust is read; with a wrong one nobody's call compiles.
                 if index > start || !is_rust {
                     *tried += &format!("{line}\n");
                     others.extend(changes.iter().map(|[from, to]| line.replacen(from, to, 1)));

@@ -241,7 +241,7 @@ fn followers_beside_the_truth(is_tried: fn(usize) -> bool) {
     let robot = support::robot("wafer");
     let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
     let truth = Reference::new(&setup);
-    // Of base parameters there are none: its axes are turned against each other anyhow.
+    // It has no base parameters: its axes are turned against each other anyhow.
     let has_no_columns = |function: &Function| function.columns() == RegressorColumns::None;
     let functions = Function::of(&robot)
         .into_iter()

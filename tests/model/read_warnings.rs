@@ -77,7 +77,7 @@ fn sizes_of_other_units() {
 
 #[test]
 fn sizes_that_are_none_of_our_business() {
-    // Of inertia all mass further away than the arm reaches, but not far further.
+    // Inertia of all mass further away than the arm reaches, but not far further.
     let usual = r#"
 [0, 0, -9.81] | [0, 0, 0]
 [0, 0, -9.81] | [0, 0, -1.62]

@@ -221,7 +221,7 @@ impl Builder {
     /// rate is zero, and the damping, which divides, is one. `None` if a divisor is zero there, or
     /// not a rational number.
     fn value_at_rest(&mut self, operation: Operation, a: Id, b: Id) -> Option<Exact> {
-        // Of what is asked for alone: at rest, long constants of odd angles multiply.
+        // Only for what is asked for: at rest, long constants of odd angles multiply.
         let mut pending = vec![a, b];
         while let Some(&id) = pending.last() {
             let value = match self.dag.node(id) {

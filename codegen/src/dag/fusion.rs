@@ -67,7 +67,7 @@ impl<C, I> Dag<C, I> {
 
 impl Dag {
     /// Returns the code with its products fused: each that a single sum or difference reads, and
-    /// nothing else, one a sum. Of two, the sum takes the one with the longer chain of operations
+    /// nothing else, one a sum. A sum of two takes the one with the longer chain of operations
     /// behind its factors, since its own operation is the one that the chain no longer has, and of equal
     /// ones the left. The choice at one sum leaves those at others as they are: so there are as few
     /// operations and as short chains as there can be. A sum with a negative literal takes none,

@@ -39,7 +39,7 @@ pub type Id = u32;
 /// A leaf, or an operation on earlier nodes.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Node<C = Exact, I = Input> {
-    /// A constant. Of an exact one the sign is the edge's (see [`Exact::leads_negative`]).
+    /// A constant. The sign of an exact one is the edge's (see [`Exact::leads_negative`]).
     Constant(C),
     Input(I),
     Apply(Operation, [Id; 2]),
@@ -302,7 +302,7 @@ impl Dag {
     }
 
     /// Rebuilds the outputs through another builder: folded, and merged by fingerprint if the
-    /// builder does that. What no output needs is left behind.
+    /// builder does that. Nodes that no output needs are left behind.
     #[must_use]
     pub fn rebuild(&self, folding: Folding) -> Dag {
         let mut builder = Builder::new(folding);

@@ -59,7 +59,7 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of";
             lines.push(match setup.robot().floating {
                 None => columns.to_owned(),
-                // Of the base, then as of any other robot.
+                // The base's columns first, then those of any other robot.
                 Some(_) => columns.replace('1', "0"),
             });
             let friction = match setup.has_coulomb() {

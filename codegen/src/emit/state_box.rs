@@ -164,7 +164,7 @@ fn ends(range: Option<Interval>, scalar: ScalarType) -> [String; 2] {
     };
     let mut ends = [scalar.above(range.low()), -scalar.above(-range.high())];
     if ends[0] > ends[1] {
-        // Of a point that is between two numbers, the next one: the checker's box has both.
+        // A point between two numbers becomes the next one: the checker's box has both.
         ends = [ends[0]; 2];
     }
     ends.map(|end| Literal(end).text(scalar))

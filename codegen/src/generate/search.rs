@@ -31,7 +31,7 @@ pub fn replay(job: &Job<'_>, plan: Option<&Plan>, function: Function) -> Outcome
         let in_scalar = |&scalar: &ScalarType| {
             plan.find(function, request.start, scalar, scene, parameters.as_ref())
         };
-        // Of other numbers of the load it is the program of another function.
+        // With other numbers of the load it is the program of another function.
         let same = |entry: &Entry| entry.parameters == parameters;
         request.scalars.iter().find_map(in_scalar).filter(same)
     };

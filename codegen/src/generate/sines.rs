@@ -80,7 +80,7 @@ fn check_inertia(
     sines: &[AngleKernel],
 ) -> Result<(), GenerateError> {
     let program = &generated.program;
-    // Of a joint that slides without an end, no box has all positions.
+    // No box has all positions of a joint that slides without an end.
     let is_spoilt = has_inertia(program)
         && domain(setup, program, None).is_ok_and(|domain| {
             !is_definite(&domain, program, sines, None) && is_definite(&domain, program, &[], None)

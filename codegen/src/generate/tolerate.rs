@@ -79,7 +79,7 @@ pub fn admitted(
     for (index, scalars) in choices.into_iter().enumerate() {
         match in_scalars(job, &budgets, &scalars, tolerance, meter) {
             Ok(admitted) => return Ok(Some(admitted)),
-            // What rounding alone forbids, the wider scalar may do.
+            // The wider scalar may do what rounding alone forbids.
             Err(
                 GenerateError::Tolerance(_, Miss::Above | Miss::Indefinite | Miss::Overflow, _)
                 | GenerateError::SinCos(..),
@@ -180,7 +180,7 @@ fn chosen(
         }
         SinCos::Polynomial => {
             let mut variants = with(&admitted);
-            // What was left out may have used up what polynomials need.
+            // The terms left out may have used up what polynomials need.
             if variants.is_err() {
                 admitted = budget.unedited(scalars, allowed)?;
                 variants = with(&admitted);

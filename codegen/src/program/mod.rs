@@ -274,7 +274,7 @@ impl Program {
         };
         let mut sizes = whole.over(&self.rows);
         if let RegressorColumns::Base(_) = self.function.columns() {
-            // What a bundle returns beside its regressor is of known lengths.
+            // The other results of a bundle have known lengths.
             let others = self.function.outputs(sizes);
             sizes.base = self.dag.outputs.len().saturating_sub(others) / self.rows.len().max(1);
         }

@@ -69,7 +69,7 @@ pub fn search(
         place => merged.swap_remove(place.unwrap_or(0)),
     };
     let limits = limits(start.counts().operations());
-    // What no output needs would only be in the way.
+    // Nodes that no output needs would only be in the way.
     let graphs = seeds.iter().chain(helpers);
     let others: Vec<Dag> = graphs.map(|dag| dag.rebuild(Folding::Syntactic)).collect();
     let offers: Vec<LeafPrints> = others.iter().map(LeafPrints::new).collect();

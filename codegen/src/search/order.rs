@@ -1,6 +1,6 @@
 //! An order in which every class comes after what its chosen way reads, kept as ways change.
 //!
-//! Whether a way would close a circle is then asked only of the few classes between.
+//! Only the few classes between are then asked if a way would close a circle.
 
 const NONE: u32 = u32::MAX;
 const SPACE: u64 = 1 << 32;

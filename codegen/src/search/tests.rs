@@ -136,7 +136,7 @@ fn finds_every_kind_of_hidden_way() {
         let known = ways_of(&classes, target);
         match is_pair {
             true => discover::pairs(&mut classes, inputs),
-            // Of pairs with one key the first is taken: that of the inputs.
+            // The first of the pairs with one key is taken: that of the inputs.
             false => discover::resubstitute(&mut classes, &[inputs, &[target]].concat()),
         }
         let mut new = ways_of(&classes, target);

@@ -22,7 +22,7 @@ const MAX_TRIED: usize = 3;
 /// is admitted. At or above the bound, which is the second argument, it need not be exact.
 pub(crate) type Limit<'a> = &'a dyn Fn(&Dag, f64) -> f64;
 
-/// Above every price of an admitted program. What is refused is compared by
+/// Above every price of an admitted program. A refused program is compared by
 /// its error, so that a descent from there first goes where it is admitted.
 const REFUSED: u64 = 1 << 48;
 
@@ -86,8 +86,8 @@ pub(crate) fn tunings(problem: &Tuning<'_>, forms: &[Form]) -> (ChainChoice, Opt
     let chain = Chain::new(&arm, &start);
     let mut starts: Vec<Regrouping<Exact>> = starts(&chain).into_iter().map(with).collect();
     if effort == Effort::Quick && starts.len() > 1 {
-        // One descent: from where the others look dearer already. Of a short chain
-        // a round of the search is cheap, and tells more than the folded formula. Of a tree the
+        // One descent: from where the others look dearer already. For a short chain
+        // a round of the search is cheap, and tells more than the folded formula. For a tree the
         // formula tells less: its limbs need not be alike.
         starts.sort_by_cached_key(|from| {
             let chain = Chain::new(&arm, from);

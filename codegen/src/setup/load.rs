@@ -59,7 +59,7 @@ impl Setup {
         let last = base + self.robot().rows().len() - 1;
         let payload = self.has(RuntimeParameter::Payload).then_some(last);
         let bodies = self.bodies.iter().copied().chain(payload);
-        // Of a body with numbers that stay zero, other parameters are zero too.
+        // A body with numbers that stay zero has other parameters that are zero too.
         let indeterminate = |input: Input| match input {
             Input::Entry(_, place) => Exact::sincos(&unknown(2_000_003 + place as i64)).sin,
             Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => Exact::zero(),

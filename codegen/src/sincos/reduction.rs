@@ -192,7 +192,7 @@ mod tests {
         let mut other = kernel.clone();
         other.dag.nodes[3] = Node::Constant(Literal(1.0));
         assert!(split(&other, ScalarType::F64).is_none());
-        // Who still reads the whole angle has not taken the turns off.
+        // A reader of the whole angle has not taken the turns off.
         let mut writer = KernelWriter::default();
         let left = write(&mut writer, constants(ScalarType::F64), ScalarType::F64);
         let angle = writer.angle();

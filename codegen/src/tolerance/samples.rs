@@ -88,7 +88,7 @@ impl Samples {
                 Input::Entry(Argument::Load, index) => block.fill(q[first_load + index]),
                 Input::Entry(Argument::Gravity, index) => block.fill(q[self.joints + index]),
                 Input::Entry(argument, joint) => self.rate(argument, joint, block),
-                // What reads it has no bounds, and is refused before any search.
+                // A function that reads it has no bounds, and is refused before any search.
                 Input::PerSpeed(_) => block.fill(f64::NAN),
             }
         }

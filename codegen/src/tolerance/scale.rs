@@ -82,7 +82,7 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
         if is_above { value.next_down() } else { value }
     };
     let of = |joint: usize| tolerance.of(joint).map_or(0.0, down);
-    // What is of no joint, such as an energy, is held to the strictest.
+    // A result of no joint, such as an energy, is held to the strictest.
     let strictest = rows.iter().copied().map(of).reduce(f64::min);
     let mut tolerances = Vec::new();
     for quantity in program.function.quantities() {

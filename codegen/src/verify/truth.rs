@@ -2,7 +2,7 @@
 //! over the robot's own parameters, in 256 bits.
 //!
 //! They share nothing with what is emitted but the robot and the state: no graph, no search, no
-//! proof, no printer. What a program gives in 256 bits is beside them, to be compared. The error of
+//! proof, no printer. A program's results in 256 bits are beside them, to be compared. The error of
 //! either is bounded along with it.
 
 use std::cell::RefCell;

@@ -7,7 +7,7 @@
 //! ```
 //! use dalembert_batch::{Argument, Floats, Vector};
 //!
-//! // What a generator prints; here the torque that holds a pendulum of 1 kg and 1 m.
+//! // A generator prints this; here the torque that holds a pendulum of 1 kg and 1 m.
 //! pub struct GravityBatch;
 //! impl dalembert_batch::Function<1, 1, 1> for GravityBatch {
 //!     type Scalar = f64;

@@ -1,7 +1,7 @@
 //! Batches on all cores by rayon: whoever is free takes the next task, the caller too.
 //!
 //! The caller waits for nobody to begin: as long as the others wake up it computes, and where
-//! they never do it has computed all. What comes out does not depend on who computes it.
+//! they never do it has computed all. The results do not depend on who computes them.
 
 extern crate std;
 

@@ -353,7 +353,7 @@ impl<'w> Whole<'w> {
         }
         let identity = || -> Result<(), Fault> {
             if function.fields.is_empty() {
-                // What it computes is shown by those that take it.
+                // The functions that take it show what it computes.
                 return Ok(());
             }
             let statement = Statement {

@@ -127,8 +127,8 @@ pub const FARTHEST: f64 = 1000.0;
 /// |x| ≤ 1000.
 ///
 /// π/2 is taken off as the sum of two doubles and a third: the first has 33 bits, so
-/// that its multiples are exact, and what is left out of π/2 is below 1e-26. What is
-/// left of x, at most 0.79, is off by less than 3e-16; the series, cut behind r¹⁹,
+/// that its multiples are exact, and what is left out of π/2 is below 1e-26. The
+/// rest of x, at most 0.79, is off by less than 3e-16; the series, cut behind r¹⁹,
 /// is off by less than 1e-20 and rounded by less than 3e-16.
 pub fn sin_cos(x: f64) -> (f64, f64) {
     const FIRST: f64 = 1.570_796_326_734_125_6;

@@ -1,7 +1,7 @@
 //! The bodies that a payload may be, and the items of generated code that make bodies of numbers that a
 //! body has, line by line.
 //!
-//! Of a body ½ tr(I) 1 − I is ∫ r rᵀ dm, about the centre of mass: none of its principal minors is
+//! A body's ½ tr(I) 1 − I is ∫ r rᵀ dm, about the centre of mass: none of its principal minors is
 //! negative. ½ is a little more here, since moments that are rounded, as those of a thin plate, are
 //! a body's as well.
 

@@ -46,7 +46,7 @@ pub enum Variable {
 }
 
 /// The exponents of a monomial. Sin, cos and q̇ of a joint have 2, 4 and 3 bits, the highest of which
-/// must stay zero (but for sin, whose square is replaced). Of q̈, of errors and of loads a monomial has
+/// must stay zero (but for sin, whose square is replaced). A monomial has of q̈, of errors and of loads
 /// one at most, by its place; the last word has these behind its joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Powers([u64; WORDS]);

@@ -249,7 +249,7 @@ impl<'f> Rounding<'f> {
         Some(Value::new(exact, error))
     }
 
-    /// |c x ± s y| is at most √(x² + y²), c and s being of one angle. Of two entries of gravity that is
+    /// |c x ± s y| is at most √(x² + y²), c and s being of one angle. For two entries of gravity that is
     /// its length.
     fn turned(&self, operands: &[Operand<f64>; 2], inputs: &Inputs) -> Option<f64> {
         let steps = &self.function.program.steps;
@@ -272,7 +272,7 @@ impl<'f> Rounding<'f> {
         };
         let (joint, is_sine, x, one) = product(&operands[0])?;
         let (other, is_other, y, two) = product(&operands[1])?;
-        // What polynomials return is no point of the circle.
+        // Results of polynomials are not points of the circle.
         let is_off = [true, false].map(|is_sine| self.polynomial(joint, is_sine).is_some());
         let is_pair = joint == other && is_sine != is_other;
         let is_circle = inputs.is_exact || is_off == [false; 2];

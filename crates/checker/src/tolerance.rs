@@ -169,7 +169,7 @@ impl VariantSubject<'_> {
         for (k, (field, joints)) in fields.into_iter().enumerate() {
             let scale = scales[k];
             let rounding = if self.is_literal(k) { 0.0 } else { costs[k] };
-            // Of a result that is not always zero there is a state where it is not.
+            // A result that is not always zero has a state where it is not.
             let is_zero = exact[k].terms.is_empty() && exact[k].rest == 0.0;
             let why = "T of zero of a result that is not always zero";
             ensure(scale > 0.0 || is_zero, why)?;

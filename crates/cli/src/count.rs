@@ -25,8 +25,8 @@ pub(crate) fn run(args: &CountArgs, context: &Context) -> Outcome {
     let scene = request.scene.as_ref();
     if scene.is_none_or(|scene| scene.tolerance.is_none()) {
         // Both scalars run the same program: one is enough to count it, and a
-        // constant that f32 cannot hold is no reason not to. What a tolerance
-        // admits depends on the scalar.
+        // constant that f32 cannot hold is no reason not to. The programs
+        // that a tolerance admits depend on the scalar.
         request.scalars.retain(|&scalar| scalar == ScalarType::F64);
         if request.scalars.is_empty() {
             request.scalars = vec![ScalarType::F32];

@@ -208,7 +208,7 @@ fn table(points: &[Point]) -> Table {
     );
     for point in points {
         let counts = point.counts();
-        // What was not observed is no zero.
+        // An error that was not observed is not zero.
         let cell = |observation: Option<f64>| match observation {
             Some(error) => Cell::power(error, 2),
             None => Cell::of("–", Value::Null),

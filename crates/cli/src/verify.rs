@@ -49,7 +49,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let file = args.given.as_deref();
     let reading = file.map(|file| given_states(file, &source, &request));
     let file_states = reading.transpose()?;
-    // What cannot be proved is not generated: this ends with the reason.
+    // A function that cannot be proved is not generated: this ends with the reason.
     let generated = source.generate(context, &mut request)?;
     let mut done = Done::from(Report::of(robot, request.scene.as_ref()));
     let mut proofs = Table::new("function=|proof=");
@@ -71,7 +71,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
         let compared: Vec<Comparison> = comparisons.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
     }
-    // What a tolerance left out is no rounding: its bound is E.
+    // The terms that a tolerance left out are not rounding: their bound is E.
     let is_exact = |code: &&RunnableCode| !claimed.contains(&(code.function, code.scalar));
     let exact = generated.emitted.iter().filter(is_exact);
     let mut rows = extremes::inside(&bench, exact, &states);
@@ -165,7 +165,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
     let heads = "case|function|result|scalar|vector|entry|.condition|.held_to|verdict=";
     let mut table = Table::new(heads);
     for row in rows {
-        // What a row is not held to stands in brackets.
+        // An error that a row is not held to stands in brackets.
         let cell = |error: f64, others: &[BoundKind]| match others.contains(&row.held) {
             true => Cell::of(format!("({error:.1})"), error),
             false => Cell::units(error),

@@ -295,7 +295,7 @@ fn figures_in_the_prose_are_right() {
             assert!(is_right, "{path:?}: {functions}");
         }
     }
-    // Of these marks, one explains the others.
+    // One of these marks explains the others.
     let marks = page("docs/src/outputs.md").matches('●').count();
     assert_eq!(marks - 1, Function::by_default().len());
     let guide = page("docs/src/how-it-works.md");

@@ -94,7 +94,7 @@ pub fn excite(
         let start = search.draw(period, effort.harmonics, &mut random);
         starts.push((search.value(&start)?, start));
     }
-    // Of equal ones the first that was drawn.
+    // The first of equal ones that was drawn.
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut best: Option<(f64, Trajectory)> = None;
     for start in starts.into_iter().take(effort.descents) {

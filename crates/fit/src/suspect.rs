@@ -43,8 +43,8 @@ const LESS: f64 = 0.25;
 
 /// Searches for the change of a log after which fits leave least of its torques.
 ///
-/// `log` is q, q̇, q̈ and τ of rows at equal times: entry i of row s at `i * rows + s`. Of a base that
-/// floats nothing is suspected.
+/// `log` is q, q̇, q̈ and τ of rows at equal times: entry i of row s at `i * rows + s`. Nothing of a base
+/// that floats is suspected.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::Value`], and [`Error::TooFew`] of short logs.

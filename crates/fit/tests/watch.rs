@@ -85,7 +85,7 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
         duration: 0.1,
         torque: torque.to_vec(),
     };
-    // Of the second joint a tenth of its weight, of the fifth ten times its noise.
+    // A tenth of the second joint's weight, ten times the fifth's noise.
     let collisions = [
         push(0.41, [0.0, 6.0, 0.0, 0.0, 0.0, 0.0]),
         push(0.77, [0.0, 0.0, 0.0, 0.0, -1.0, 0.0]),

@@ -127,7 +127,7 @@ fn nulls_within(array: &ArrayRef) -> Option<NullBuffer> {
     let lists = array.as_fixed_size_list();
     let width = lists.value_length() as usize;
     let nulls = lists.values().nulls().filter(|of| of.null_count() > 0)?;
-    // Of a slice of an array, values are those of the slice.
+    // The values of a slice of an array are those of the slice.
     let valid = (0..lists.len()).map(|row| (0..width).all(|k| nulls.is_valid(row * width + k)));
     Some(NullBuffer::from_iter(valid))
 }

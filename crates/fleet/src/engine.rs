@@ -111,7 +111,7 @@ impl Engine {
             .find(|aggregate| aggregate.name().ends_with(suffix))
             .ok_or_else(|| Error::new(format!("there is no aggregate `{suffix}`")))?;
         let with_time = suffix == "_residuals";
-        // Of each partition a row group is in memory: as many at once as there is room for.
+        // A row group of each partition is in memory: as many at once as there is room for.
         let largest = logs.iter().map(|log| log.group).max().unwrap_or(0);
         let room = self.limits.memory / (2 * largest + PARTITION);
         let at_once = match self.is_cluster {

@@ -231,7 +231,7 @@ pub fn mapped<S, T>(at: &JointPosition<S>, mut change: impl FnMut(&S) -> T) -> J
 }
 
 /// Moves the constant part of a joint's θ or d into its variable; none of a joint that others follow.
-/// Of a joint that is placed, a turn by right angles stays: it makes no terms, and the variable is q_i.
+/// A turn of a placed joint by right angles stays: it makes no terms, and the variable is q_i.
 fn take_offset(arm: &mut Arm<Polynomial>, row: usize, joint: &Joint) -> Offset {
     let link = &mut arm.links[row];
     if arm.following.iter().any(|follower| follower.leader == row) {

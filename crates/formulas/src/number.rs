@@ -1,4 +1,4 @@
-//! A coefficient known twice: by a residue and by a value of 256 bits. Of rational numbers the residue
+//! A coefficient known twice: by a residue and by a value of 256 bits. For rational numbers the residue
 //! decides if one is zero, and where odd angles take part, the value beside its error.
 
 use dalembert_model::number::parse::write_decimal;

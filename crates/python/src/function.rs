@@ -177,7 +177,7 @@ impl Function {
             return Err(PyValueError::new_err(why));
         }
         let out = out.as_ref().filter(|out| !out.is_none());
-        // Of both, floats are for who gives nothing else.
+        // If it has both, floats are for callers that give nothing else.
         let is_f32 = |array: &Bound<'_, PyAny>| array.cast::<PyArrayDyn<f32>>().is_ok();
         match (self.in_scalar(Scalar::F64), self.in_scalar(Scalar::F32)) {
             (double, Some(single)) if double.is_none() || values.iter().all(is_f32) => {

@@ -131,7 +131,7 @@ impl BaseParameters {
         let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
 
         let mut candidates: Vec<Column<Exact>> = Vec::new();
-        // Of a base that floats, or of a link of the chain.
+        // The base that floats or a link of the chain, and the moment.
         let mut places: Vec<(Option<usize>, Moment)> = Vec::new();
         for &moment in Moment::ALL.iter().filter(|_| arm.floats) {
             candidates.push(Column {

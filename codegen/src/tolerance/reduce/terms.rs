@@ -41,7 +41,7 @@ impl Terms {
         let function = exact.function;
         let mut quantities = function.quantities().iter();
         let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
-        // What a base that floats adds is of no link.
+        // A base that floats adds terms of no link.
         let is_fixed = setup.robot().floating.is_none();
         let is_plain = setup.load().is_none() && !setup.takes_any(function) && is_fixed;
         if exact.dag.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
@@ -58,7 +58,7 @@ impl Terms {
         for (output, (values, &allowance)) in whole.chunks_exact(m).zip(allowances).enumerate() {
             let largest = terms.samples.blocks(values).into_iter().fold(0.0, f64::max);
             if largest > NOTHING * allowance {
-                // What may not err at all cannot be fitted.
+                // A result that may not err at all cannot be fitted.
                 if allowance <= 0.0 {
                     return None;
                 }

@@ -134,7 +134,7 @@ fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Vec<
         frame = at.then(&behind);
         let along = at.rotate(unit(Digits.axis(row)?));
         if row.turns() {
-            // Of a direction that agrees, the product with a point may differ by twice as much.
+            // The product of a direction that agrees with a point may differ by twice as much.
             let scale = largest(&at.origin) * 2;
             let place = Part::new(name("place"), cross(at.origin, along.clone()));
             parts.push(Part { scale, ..place });

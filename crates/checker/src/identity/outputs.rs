@@ -137,7 +137,7 @@ impl<'a> At<'a> {
     }
 
     fn with_friction(&self, loads: &[Number], rates: &[Number]) -> Vec<Number> {
-        // What follows another joint has no Coulomb friction.
+        // A joint that follows another has no Coulomb friction.
         let speed = |joint: &Joint| self.state.speeds[self.first() + joint.leader.0];
         let drag = self.drives(|joint| joint.viscous + joint.coulomb * speed(joint), rates);
         plus(loads, &drag)
@@ -221,7 +221,7 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), self.given("qd"), Vector::default())
     }
 
-    /// Returns C(v) w: h is quadratic, so it is half of h(v + w) − h(v) − h(w). Of a base that floats
+    /// Returns C(v) w: h is quadratic, so it is half of h(v + w) − h(v) − h(w). For a base that floats
     /// half of D [v, w] comes in: how far motions that are constant in its axes do not commute.
     fn across(&self, v: &[Number], w: &[Number]) -> Vec<Number> {
         let both = self.coriolis(&plus(v, w));
@@ -496,7 +496,7 @@ impl<'a> At<'a> {
             }
             "null_space" => {
                 let j = transposed(&self.moving_jacobian());
-                // What is locked is in no space.
+                // A locked coordinate is in no space.
                 let units = self.moving(units(n)).into_iter();
                 let both = units.zip(self.consistent());
                 let row = |(unit, inverse): (Vec<Number>, Vec<Number>)| {
@@ -560,7 +560,7 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                 if one == other && at % n < at / n {
                     return known[at % n * n + at / n];
                 }
-                // Of a motion that is solved for, what is locked has none.
+                // A locked coordinate has none of a motion that is solved for.
                 let is_held = |joint: &usize| arm.locked.contains(joint);
                 if of == "qdd" && [at / n, at % n].iter().any(is_held) {
                     return 0.into();

@@ -451,7 +451,7 @@ impl Setting<'_> {
         row.is_some_and(|row| self.file.joint[*row].turns())
     }
 
-    /// Returns w² of a coordinate with Coulomb friction. Of others nothing may be read: the identity
+    /// Returns w² of a coordinate with Coulomb friction. Other coordinates may not be read: the identity
     /// takes their 1/√(q̇² + w²) to be zero.
     pub fn square_of_width(&self, coordinate: usize) -> Option<Exact> {
         let joint = coordinate.checked_sub(self.base())?;

@@ -39,7 +39,7 @@ pub fn is_definite(entries: &[Polynomial], errors: &[f64], ring: &Ring) -> bool 
             off[at] = (entry.rest + errors[at]) * unit;
             for &(key, value) in &entry.terms {
                 let value = value * unit;
-                // What depends on a rate, or on the error of a sine, is at most so large.
+                // A factor of a rate, or of the error of a sine, is at most so large.
                 match entry.factors[group(key)] {
                     Factor::One => {
                         let placed = key - group(key) as TermKey + at as TermKey;

@@ -216,7 +216,7 @@ impl<'r> Reader<'r> {
 
     /// The name was read: its letter says if it is a sine, a cosine, a root or an operation.
     fn c_value(&mut self, name: &'r str, called: &[usize], pair: Option<usize>) -> Read<()> {
-        // What has no number is of no joint.
+        // A name without a number is of no joint.
         let joint = joint_of(name).unwrap_or(self.head.joints);
         let (is_sine, function, array) = match name.chars().next() {
             Some('s') => (true, "sin", "sines"),
@@ -261,8 +261,8 @@ impl<'r> Reader<'r> {
         entries.collect()
     }
 
-    /// Returns the function of any number of states: entry i of state s is at `i * n + s`. What is
-    /// told that no angle is far is called once more where one may be.
+    /// Returns the function of any number of states: entry i of state s is at `i * n + s`. A function
+    /// that is told that no angle is far is called once more where one may be.
     fn batch(&self, symbols: &Symbols, is_told: bool, parameters: &[Parameter]) -> String {
         let (float, macros) = (self.head.float(), &symbols.macros);
         let entry = |index: usize, [count, one]: [&str; 2]| match index {

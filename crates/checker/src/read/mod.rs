@@ -1,6 +1,6 @@
 //! The text of a function, in Rust, C or CUDA, read into straight-line code.
 //!
-//! The grammar is what the generator prints. What is not in it is refused with its line, however
+//! The grammar is what the generator prints. Any other text is refused with its line, however
 //! harmless. All that follows from a function's head (types, what else calls the function, loops
 //! over states) is compared word by word with what it must be; the rest is one operation a
 //! statement, so that nothing can be contracted.

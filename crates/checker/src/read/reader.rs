@@ -417,7 +417,7 @@ impl<'r> Reader<'r> {
         is_sine: bool,
         source: Source,
     ) -> Read<()> {
-        // What a lane computes is out of scope behind it.
+        // Values of a lane are out of scope behind it.
         self.ensure(self.lane.is_none(), "sines are taken before lanes")?;
         let letter = if is_sine { 's' } else { 'c' };
         if name != format!("{letter}{}", joint + 1) || joint >= self.head.joints {

@@ -111,7 +111,7 @@ impl<'r> Reader<'r> {
     }
 
     fn sines(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
-        // What has no number is of no joint.
+        // A name without a number is of no joint.
         let joint = joint_of(names[0].0).unwrap_or(self.head.joints);
         if self.take("{") {
             return self.polynomials(joint, names);

@@ -63,7 +63,7 @@ impl Block {
                 }
             }
         }
-        // Of those in the same row the one that was found first.
+        // The first one of those in the same row.
         match defects.into_iter().min_by_key(|(place, _)| *place) {
             Some((place, what)) => Err(Error::new(what).at_row(self.rows[place])),
             None => Ok(()),
@@ -121,7 +121,7 @@ impl<'a> Blocks<'a> {
         let mut valid = vec![true; batch.num_rows()];
         let time = seconds(&named(&self.columns.time)?, self.columns.time_factor)?;
         without_nulls(&time, 1, &mut valid);
-        // Of each joint an array, how many entries of it a row has, and which is the joint's.
+        // For each joint an array, how many entries of it a row has, and which is the joint's.
         let mut columns: [Vec<(ArrayRef, usize, usize)>; 4] = Default::default();
         for (source, columns) in self.layout.iter().zip(&mut columns) {
             match source {

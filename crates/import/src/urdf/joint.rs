@@ -115,7 +115,7 @@ fn drive(element: &Element, name: &str, reader: &mut Reader) -> Joint {
         }
         (None, None) => return Joint::default(),
     };
-    // Of two names the first counts, unless it says nothing.
+    // The first of two names counts, unless it says nothing.
     let mut load = |[first, second]: [&str; 2]| {
         let [first, other] = [first, second].map(|key| {
             let number = reader.number(dynamics, key);

@@ -2,7 +2,7 @@
 //! own text over a value and its rate of change.
 //!
 //! Second derivatives are of λᵀτ and λᵀq̈ for a given λ: n² numbers each where those of all torques
-//! are n³. Closed forms have those of the torques by duals of duals. Of a recursion hardly a digit
+//! are n³. Closed forms have those of the torques by duals of duals. In a recursion hardly a digit
 //! would be left of that for a light wrist on a heavy arm, since forces turn out and back in:
 //! recursions have them from [composite bodies](super::chain), which tests hold against the closed
 //! forms. Those of the accelerations follow, since D q̈ + h + c + b∘q̇ = τ holds for all q and q̇:

@@ -258,7 +258,7 @@ fn in_axes<S: Scalar>(
     match (axes, hand) {
         (Axes::Mixed, _) | (_, None) => [linear, angular],
         (Axes::Local, Some(hand)) => [hand.rotate_back(&linear), hand.rotate_back(&angular)],
-        // Of the point of the same body that is at the base's origin.
+        // The linear velocity is that of the body's point at the base's origin.
         (Axes::World, Some(hand)) => [sum(&linear, &cross(&hand.origin, &angular)), angular],
     }
 }
@@ -339,7 +339,7 @@ fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Column
     }
 }
 
-/// Returns the pose of the hand by the levers to it. Of its axes z is that of the last frame's, and
+/// Returns the pose of the hand by the levers to it. Its z is that of the last frame, and
 /// x is seen from the frame two joints before: the one between need not have all of its axes.
 fn hand_by_levers<S: Scalar>(arm: &Arm<S>, at: &At<S>) -> Columns<S> {
     let levers = levers(arm, at);

@@ -89,7 +89,7 @@ pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
 
 /// Returns the unit vector along a direction, unless that is zero.
 pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
-    // Of ordinary size first: 1e-300 is a direction too.
+    // The axis is scaled to ordinary size first: 1e-300 is a direction too.
     let largest = axis.iter().map(Signed::abs).max()?;
     if largest.is_zero() {
         return None;

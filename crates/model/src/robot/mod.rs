@@ -124,7 +124,7 @@ pub struct Robot {
     /// The hand in the last frame, unless it is that: what poses and Jacobians are of.
     pub tool: Option<Placement>,
     /// The frame that payloads are given in, those of scenes and those at run time, in the last
-    /// frame, unless it is that frame. Of an arm by placements it is the last link's own.
+    /// frame, unless it is that frame. For an arm by placements it is the last link's own.
     pub payload_frame: Option<Placement>,
     /// The payloads that there may be, where a payload is an argument.
     pub payload_range: Option<BodyRange>,

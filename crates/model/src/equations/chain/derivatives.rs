@@ -41,7 +41,7 @@ pub(super) struct JointSlopes<S> {
 }
 
 impl<S: Scalar> Composite<'_, S> {
-    /// Returns ∂τ/∂q and ∂τ/∂q̇ of all coordinates. Of a base that floats the first is as it moves in
+    /// Returns ∂τ/∂q and ∂τ/∂q̇ of all coordinates. For a base that floats the first is as it moves in
     /// its axes, velocities kept.
     pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
         let (joints, flow) = self.joint_slopes(qd, qdd);

@@ -88,7 +88,7 @@ impl Check<'_> {
                 self.error(place, message, help);
                 continue;
             }
-            // Of a base that is locked, nothing is in the list.
+            // Nothing of a base that is locked is in the list.
             let index = index + self.robot.base_coordinates() - self.base();
             let joint = self.robot.joint_of(index);
             let is_locked = joint.is_some_and(|joint| self.scene.locked(joint).is_some());
