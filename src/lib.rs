@@ -119,9 +119,9 @@ pub mod matrices;
 ///
 /// Numbers are exact: `0.3` is 3/10, `"1/3"` a third, `"pi/2"` and `"90deg"` are a right angle.
 ///
-/// What is odd about a robot, such as an inertia that no body has or lengths that
-/// look like millimetres, is a warning of whatever generates. Whoever knows better
-/// silences it by its name, which its help says: `allow = ["impossible_inertia"]` in the robot file.
+/// An oddity of a robot, such as an inertia that no body has or lengths that look
+/// like millimetres, is a warning, in macro, build script and command. Silence it
+/// by its name, which its help says: `allow = ["impossible_inertia"]` in the robot file.
 ///
 /// # Clauses
 ///
@@ -182,7 +182,7 @@ pub mod matrices;
 ///
 /// # Parameters at run time
 ///
-/// What the hand carries changes with the tool, and where gravity points with the
+/// The load of the hand changes with the tool, and the direction of gravity with the
 /// base. Functions take both as arguments, after the state:
 ///
 /// ```
@@ -334,7 +334,7 @@ pub mod matrices;
 ///         velocity = "zero"
 ///         ## What the last link carries, in its frame; a point without `inertia`.
 ///         payload = { mass = 0.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
-///         ## Where bounds hold: an entry a joint. What is left out is the joints' limits.
+///         ## Where bounds hold: an entry a joint. Entries left out are the joints' limits.
 ///         box = { position = [[-1, 1], [0, 2], [0, 1]], acceleration = [5, 10, 10] }
 ///         ## Of the actuators' torque limits, or `range`: of a torque that the model attains
 ///         ## in the box, at or just below its largest. A value, or a list of them, one a joint.

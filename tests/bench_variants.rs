@@ -1,5 +1,5 @@
 //! The functions that benches compare are what the generator writes: one program with several
-//! sines, and the recursion in symbols. What differs is written anew before the test fails.
+//! sines, and the recursion in symbols. A file that differs is written anew before the test fails.
 
 use std::fs;
 use std::path::Path;

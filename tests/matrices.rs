@@ -15,7 +15,7 @@ fn rows_stay_rows() {
     let expected = SMatrix::<f64, 2, 3>::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
     assert_eq!(matrix, expected);
     assert_eq!(rows(&matrix), known);
-    // What nalgebra's own conversion makes of the same array.
+    // The matrix that nalgebra's conversion makes of the same array.
     let turned: SMatrix<f64, 3, 2> = SMatrix::from(known);
     assert_eq!(turned.transpose(), matrix);
     let three = vector([7.0f32, 8.0, 9.0]);

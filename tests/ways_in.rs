@@ -58,7 +58,7 @@ fn one_robot_by_every_way() {
             planar2r::inverse_dynamics(&q, &qd, &qdd),
             dalembert_generated::planar2r::inverse_dynamics(&q, &qd, &qdd),
         ];
-        // What is checked in calls libm, too.
+        // The files that are checked in call libm, too.
         assert_eq!(alone::inverse_dynamics(&q, &qd, &qdd), others[1]);
         let [q, qd, qdd] = [q, qd, qdd].map(|x| DVector::from_row_slice(&x));
         let reference = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();

@@ -1,5 +1,5 @@
 //! Numbers that hide where nobody looks: in real numbers they cancel, and floats lose what they are
-//! added to. None of these is shown. What divides may be measured at the most.
+//! added to. None of these is shown. A function that divides may be measured at the most.
 
 use dalembert_checker::certify::{Demand, certify};
 use serde_json::{Value, json};

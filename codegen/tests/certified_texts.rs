@@ -411,7 +411,7 @@ int p_in_box( → int P_in_box(
     assert_eq!(rust.with(&module).refusal(), None);
     assert!(rust.with(&format!("{module}{module}")).refusal().is_some());
     assert!(rust.with(&format!("{module}{body}")).refusal().is_some());
-    // What functions call for sines is not another function.
+    // A routine that functions call for sines is not another function.
     let asked = "gravity; scalar: f64; sincos: together; name: p; language: c";
     let header = planar2r(asked, 1);
     let [text, claim] =

@@ -97,7 +97,7 @@ fn variants_that_grow_without_end() {
         (vec![], vec!["qd[1]*qd[1]".into(); 60_000]),
     ] {
         let begun = Instant::now();
-        // What the checker does not show gives way to another search.
+        // A program that the checker does not show gives way to another search.
         let again = by(&case, &with_steps(&plan, &constants, &steps)).unwrap();
         assert_eq!(again.text(), original.text());
         assert!(begun.elapsed() < Duration::from_secs(20), "{}", steps[0]);

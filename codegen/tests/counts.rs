@@ -6,7 +6,7 @@ use dalembert_codegen::Function;
 use crate::support::{Case, daily_and_campaign, rows};
 
 /// Checks a table: robot files, the lines of a scene, what is asked, and the most operations of each
-/// function, or operations/sines. What inverts D divides once a joint at most.
+/// function, or operations/sines. A function that inverts D divides once a joint at most.
 #[track_caller]
 fn check(table: &str) {
     for [file, scene, asked, most] in rows(table) {

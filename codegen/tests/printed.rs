@@ -57,7 +57,7 @@ fn texts_say_what_was_asked() {
     let mut plan: Option<Plan> = None;
     for [file, scene, asked, words] in rows(ROWS) {
         let mut case = Case::in_scene(&file, &scene, &asked);
-        // What was found for the row before is not searched for again.
+        // Programs of the row before are not searched for again.
         let input = input_hash(case.robot());
         case.request.plan = plan.filter(|plan| plan.input == input && scene.is_empty());
         let generated = case.generated();

@@ -257,7 +257,7 @@ fn every_change_of_a_line_is_found() {
             assert!(is_same(text) && length > 15, "{}", case.request.asked());
             let others = |index: usize, line: &str| {
                 let is_own = (start..end).contains(&index) && (index - start).is_multiple_of(every);
-                // What is derived, and that an argument is not read, is for compilers.
+                // Derives, and marks of arguments that are not read, are for compilers.
                 let mut skipped = ["///", "#[", "(void)"].iter();
                 if !is_own || skipped.any(|mark| line.contains(mark)) {
                     return Vec::new();

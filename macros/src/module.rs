@@ -153,7 +153,7 @@ fn module(
     let facade = &invocation.facade;
     let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
     let gap = attributes.iter().any(is_doc).then(|| quote!(#![doc = ""]));
-    // What it calls is found in the facade, wherever that is.
+    // The functions that it calls are found in the facade, wherever that is.
     let import = |is_called: bool, import: TokenStream| is_called.then(|| quote!(use #import;));
     let libm = import(text.contains("libm::"), quote!(#facade::__private::libm));
     let sines = text.contains("dalembert_sines::");

@@ -56,7 +56,7 @@ fn mutate(tokens: TokenStream, random: &mut Random, rate: usize) -> TokenStream 
                 let delimiter = delimiters.get(case).copied().unwrap_or(group.delimiter());
                 Group::new(delimiter, inner).into()
             }
-            // What another macro puts in stands in an invisible group.
+            // Tokens that another macro puts in stand in an invisible group.
             (tree, 0) => Group::new(Delimiter::None, tree.into()).into(),
             (tree, _) => tree,
         };

@@ -34,7 +34,7 @@ fn the_nearest_float_is_told_from_its_neighbours() {
     }
     let third = Exact::read("1/3").unwrap();
     assert!(!third.is_nearest(1.0 / 3.0, true));
-    // What vanishes in a scalar is no zero: a factor beside it may be as large as it is small.
+    // A number that vanishes in a scalar is not zero: a factor beside it may be as large as it is small.
     for (small, is_single) in [("1/2e45", true), ("1/5e323", false)] {
         assert!(!Exact::read(small).unwrap().is_nearest(0.0, is_single));
     }

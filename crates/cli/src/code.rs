@@ -122,7 +122,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     for refused in generated.functions.iter().filter_map(refused) {
         report.line(format!("\n{refused}"));
     }
-    // What a tolerance admits has its bounds.
+    // A program that a tolerance admits has its bounds.
     let is_exact = !has_tolerance(generated);
     if let Some(setup) = request.prepare(robot).ok().filter(|_| is_exact) {
         let states = affordable_states(robot.joints.len());
@@ -143,7 +143,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     }
     let mut stages = Table::new(&format!("function|stage|{COUNTS}"));
     for function in &generated.functions {
-        // What the tolerance left of it is what is emitted.
+        // The program that the tolerance left is emitted.
         let has_tolerance = function.admitted.is_some();
         let last = has_tolerance.then(|| ("tolerance", function.counts()));
         let passes = function.passes.iter().map(|pass| (pass.name, pass.counts));

@@ -152,7 +152,7 @@ fn language(args: &GenerateArgs) -> Result<Language, Failure> {
         (Ok(language), asked) if asked.is_none_or(|asked| asked == language) => Ok(language),
         (Err(_), Some(asked)) => Ok(asked),
         (_, asked) => {
-            // What has no ending names them.
+            // The error of a path without ending names them.
             let known = Language::of(Path::new("")).err().unwrap_or_default();
             Err(Failure::Input(format!(
                 "error: `{}` does not end as a file of {} does\n  = help: the language follows from \

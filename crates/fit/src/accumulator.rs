@@ -8,7 +8,7 @@
 //!
 //! over the columns alone that are not zero in it. For any π the sum of squared residuals is
 //! ‖R_i π_i − z_i‖² + ρ_i²: weights by the joints' noise, cross-validation and comparisons of
-//! two robots need no second look at the states. What is kept does not grow with them.
+//! two robots need no second look at the states. The memory does not grow with them.
 
 use crate::error::{Error, check};
 use crate::model::{Column, Model};

@@ -1,8 +1,8 @@
 //! The motion that excitation is measured against: random states within the limits.
 //!
 //! Parameters have different units, so that the condition of a regressor says as much about
-//! kilograms as about the motion. What torque a combination of parameters gives in a log,
-//! against what it gives in this motion, has no unit.
+//! kilograms as about the motion. The torque of a combination of parameters in a log,
+//! against the one in this motion, has no unit.
 
 use crate::accumulator::Accumulator;
 use crate::dense::{norms, split};

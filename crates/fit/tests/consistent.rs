@@ -134,7 +134,7 @@ fn bodies_of_noisy_data_exist() {
             let farther = distance(&Vec::from_iter(moved)) - nearest;
             assert!(farther > -1e-6, "{name}: {farther}");
         }
-        // What was averaged over 300 states is known to a part of one state's noise.
+        // A mean over 300 states is known to a part of one state's noise.
         let unseen = accumulated(&model, &states(&model, 300, 35), &right, None);
         let predicted = unseen.residual(&model, &bodies.parameters).unwrap();
         for (i, residual) in predicted.iter().enumerate() {

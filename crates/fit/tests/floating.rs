@@ -116,7 +116,7 @@ fn the_base_and_the_links_are_identified() {
     // The first base parameter is the mass of all bodies.
     assert!(model.name(0).starts_with("m0 + m1"), "{}", model.name(0));
     near(bodies.parameters[0], 13.9, 1e-2, "the mass of all bodies");
-    // What is kept is read again.
+    // The bytes are read again.
     let read = Accumulator::from_bytes(&model, &data.to_bytes()).unwrap();
     assert_eq!(read.states(), 600);
 }

@@ -206,7 +206,7 @@ impl Job {
     pub async fn aggregates(&mut self, suffix: &str) -> Result<Vec<Vec<u8>>, Error> {
         let progress = self.progress.clone();
         let is_cluster = self.engine.is_cluster();
-        // What a cluster evaluates is not counted here.
+        // States that a cluster evaluates are not counted here.
         let done = move |log: &Log| {
             if is_cluster {
                 progress.add(log.rows)

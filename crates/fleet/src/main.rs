@@ -51,7 +51,7 @@ fn main() -> ExitCode {
 }
 
 fn failed(why: &str) -> ExitCode {
-    // What is wrong with a robot file says so itself, at each place.
+    // The errors of a robot file say so themselves, at each place.
     match why.starts_with("error") {
         true => eprintln!("{why}"),
         false => eprintln!("error: {why}"),

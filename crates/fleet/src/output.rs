@@ -79,7 +79,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // What cannot be removed is in the folder for such files.
+        // A file that cannot be removed is in the folder for such files.
         let _ = fs::remove_dir_all(&self.folder);
     }
 }

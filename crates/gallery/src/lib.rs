@@ -137,7 +137,7 @@ impl Entry {
         let (arm, robot) = (&self.arm, &self.robot);
         let mut request = Request::new(&[InverseDynamics, Gravity, Inertia]);
         request.scalars = vec![ScalarType::F64];
-        // What others count has no lanes.
+        // The counts of other tools have no lanes.
         request.limbs = LimbLayout::Apart;
         let generated = generate(robot, &request).map_err(|why| format!("{}: {why}", arm.name))?;
         let mut row = format!("| [{}](#{}) |", arm.title, arm.name);

@@ -74,10 +74,10 @@ pub struct Options {
     /// or the end of the longest chain, if there is one; the first of several that one joint moves.
     /// Several take the joints on the ways to all of them.
     pub tips: Vec<String>,
-    /// Take every joint that moves; no tips are given then. What a free joint carries floats.
+    /// Take every joint that moves; no tips are given then. A part that a free joint carries floats.
     pub tree: bool,
-    /// Let the base float; without tips every joint that moves is taken. What a free joint carries
-    /// floats unasked if it has several limbs.
+    /// Let the base float; without tips every joint that moves is taken. A part that a free
+    /// joint carries floats unasked if it has several limbs.
     pub floating: bool,
     /// Joints that stay where they are, each with its position, within the joint's
     /// limits: a number of the model's units, `pi/2` or `90deg`. The name `*` stands for

@@ -118,7 +118,7 @@ impl Arm {
         let text = source.as_str();
         let key = cache::key(text, source.name(), plan_text.as_deref(), load);
         let kept = folder.as_ref().and_then(|folder| folder.entry(&key));
-        // What is kept and damaged, or of a version that reads otherwise, is made anew.
+        // A kept entry that is damaged, or of a version that reads otherwise, is made anew.
         let again = |entry| Arm::of_entry(entry, text, load, true).ok();
         if let Some(arm) = kept.and_then(again) {
             return Ok(arm);

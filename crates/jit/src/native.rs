@@ -1,6 +1,6 @@
 //! Machine code in memory, and calls of it: all unsafe code of this crate.
 //!
-//! What it rests on:
+//! It rests on this:
 //! - The code is what [`compile`](crate::compile) made of a program: it reads the entries
 //!   of its signature at the addresses given, writes the results, calls [`library`] and
 //!   nothing else, keeps nothing, and ends. It has no unwinding and no state, so that any

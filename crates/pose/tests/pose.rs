@@ -220,7 +220,7 @@ fn worst<const N: usize>(values: [f64; N], truth: [Number<Wide>; N]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The text in 256 bits is the reference: what a double rounds is all that differs. What is cut off
+/// The text in 256 bits is the reference: only the rounding of doubles differs. The cut-off rest
 /// of the series is far below it, as the bounds of their first terms left out say.
 #[test]
 fn errors_are_below_their_bounds() {
@@ -245,7 +245,7 @@ fn errors_are_below_their_bounds() {
         });
         most[2] = most[2].max(turn / UNIT);
         most[3] = most[3].max(linear / UNIT / longest);
-        // What is left of an angle's digits is what the two orientations have of it.
+        // As many of an angle's digits are left as the two orientations have of it.
         let lost: [f64; 3] = std::array::from_fn(|i| step[3 + i] - difference[3 + i]);
         most[4] = most[4].max(largest(&lost) / UNIT);
         assert!(largest(&difference[3..]) < 3.2);

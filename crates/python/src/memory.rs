@@ -1,6 +1,6 @@
 //! NumPy's arrays and XLA's buffers as slices: all unsafe code of this crate.
 //!
-//! A slice of an array's memory is made for one call. What it rests on:
+//! A slice of an array's memory is made for one call. It rests on this:
 //! - The array's data pointer, shape and strides are NumPy's; strides are not negative, are
 //!   multiples of an entry and the data is aligned, or there is no slice: so all entries
 //!   lie in the slice from the first to the farthest.

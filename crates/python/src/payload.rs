@@ -36,8 +36,8 @@ impl Load {
     }
 }
 
-/// Refuses bodies of the argument of a name that no body is. What has not ten numbers a body is left to
-/// the call.
+/// Refuses bodies of the argument of a name that no body is. The call refuses what has not
+/// ten numbers a body.
 pub(crate) fn check(name: &str, bodies: &Bound<'_, PyAny>, zeros: &[bool]) -> PyResult<()> {
     let numpy = bodies.py().import("numpy")?;
     let Ok(array) = numpy.call_method1("asarray", (bodies,)) else {

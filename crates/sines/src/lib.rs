@@ -95,7 +95,7 @@
 //!
 //! ## Fused products
 //!
-//! Batches of functions whose products are fused fuse them here as well. What is exact above stays
+//! Batches of functions whose products are fused fuse them here as well. The exact steps above stay
 //! so, and each fused product saves a rounding: the generator's proof gives 0.83 u for both.
 #![no_std]
 #![forbid(unsafe_code)]

@@ -38,7 +38,7 @@ pub fn command(
     let jacobian = state.jacobian();
     let standing = (0..LEGS).filter(|leg| stance.has(*leg));
     let rows: Vec<usize> = standing.flat_map(|leg| 3 * leg..3 * leg + 3).collect();
-    // What a force on a foot does to the base.
+    // The effect of a force on a foot on the base.
     let on_base = DMatrix::from_fn(6, rows.len(), |i, k| jacobian[(rows[k], i)]);
     let wrench = DVector::from_fn(6, |i, _| needed[i]);
     let decomposition = on_base.svd(true, true);

@@ -215,7 +215,7 @@ fn generated(robot: &Robot, request: &Request) -> Result<AskedCode, GenerateErro
 /// Those of generating the code that is run.
 pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
     const CASE: (&str, BoundKind) = ("nearest to singular", BoundKind::Vector);
-    // What is damped inverts other matrices, which are near singular at other states.
+    // Damped functions invert other matrices, which are near singular at other states.
     let is_damped = |function: &Function| function.arguments().contains(&Argument::Damping);
     let mut dividing = request.functions.clone();
     dividing.retain(|function| function.inverts_inertia() && !is_damped(function));

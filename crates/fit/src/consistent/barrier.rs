@@ -42,7 +42,7 @@ impl Barrier {
                     (joint, &robot.joints[joint].armature, limit)
                 }
             };
-            // What the file takes for zero may be as much as noise hides.
+            // A number that the file takes for zero may be as much as noise hides.
             let file = f64::nearest_rational(file).max(noise[joint] / per);
             Some(Drive::Positive(at, file))
         });

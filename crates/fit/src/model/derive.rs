@@ -37,7 +37,7 @@ impl Model {
         self.columns = kept.iter().map(|k| self.columns[*k]).collect();
         let scale = |k: usize| (0..n).fold(0.0f64, |max, i| max.max(largest[i * width + k]));
         for (i, row) in self.rows.iter_mut().enumerate() {
-            // What is nothing but rounding next to the column's largest entry is zero.
+            // An entry that is only rounding next to the column's largest is zero.
             let columns = kept.iter().enumerate();
             let felt = columns.filter(|(_, k)| largest[i * width + **k] > 1e-12 * scale(**k));
             *row = felt.map(|(new, _)| new).collect();
@@ -57,7 +57,7 @@ impl Model {
     pub(super) fn hashed(&self) -> [u8; 32] {
         let mut bare = candidates(&self.robot, self.rotors);
         let (rotors, count) = (self.rotors, self.columns.len());
-        // What is identified, in the words of the bytes that there are.
+        // The parameters that are identified, in the words of the bytes that there are.
         bare.name = format!(
             "Options {{ armature: {rotors}, viscous: true, coulomb: true, offset: true, \
              coulomb_width: 0.01 }} {:?} {count}",

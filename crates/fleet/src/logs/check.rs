@@ -45,7 +45,7 @@ impl Log {
     /// Says, a line each, how many rows a log of so many states left out, and where rates are from.
     pub fn told(&self, states: u64) -> String {
         let Origin { nulls, ends, rates } = &self.origin;
-        // What no conversion has left out, queries have.
+        // Queries have left out rows that no conversion has.
         let nulls = nulls + self.rows.saturating_sub(states);
         let rows = |count: u64, cause: &str| format!("{count} rows left out: {cause}");
         let facts = [

@@ -53,7 +53,7 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     ];
     says(&said, &parts);
     assert!(!out.exists());
-    // What is wrong with numbers shows when they are used.
+    // Mistakes in numbers show when they are used.
     log(&folder, "number.parquet", |of| {
         of.quantities[1][20_000 + 15_554] = f64::NAN
     });

@@ -69,7 +69,7 @@ fn the_written_file_leaves_what_the_table_says() {
     let stopped = said.lines().find(|line| line.starts_with("stopped at 0"));
     let hint = |line: &str| line.contains("armature2") && line.contains("--without-rotors");
     assert!(stopped.is_some_and(hint), "{said}");
-    // What the second joint's rotor cannot have is taken from bodies that the first one feels.
+    // The part that the second joint's rotor cannot have is taken from bodies that the first one feels.
     let worse = "warning: joint 1: the written file leaves ";
     let offset = "its sensor has an offset of ";
     says(&said, &["written file", offset, worse]);

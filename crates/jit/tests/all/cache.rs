@@ -135,7 +135,7 @@ fn what_others_may_write_is_not_trusted() {
         let note = arm.notes().iter().any(|note| note.contains("chmod go-w"));
         assert_eq!(note, folder_mode != 0o700, "{:?}", arm.notes());
     }
-    // What was made anew is the user's alone.
+    // An entry that was made anew is the user's alone.
     assert!(arm(&folder.load()).is_from_cache());
 }
 

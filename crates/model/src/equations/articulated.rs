@@ -3,7 +3,7 @@
 //! DH conventions, rotors' inertia and friction included.
 //!
 //! The articulated body i is link i with all that follows it, each joint free to move under its own
-//! torque. What it answers to an acceleration a of its frame is I a + p; the joint before gives way
+//! torque. Its answer to an acceleration a of its frame is I a + p; the joint before gives way
 //! along its axis, and takes the part d = Sᵀ I S + armature along it out of I. Nothing is assembled
 //! or factorised: D does not occur.
 

@@ -142,7 +142,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
     /// Returns h^rot and h^tran (eqs. 4.3, 4.4), each of length n, in the order of [`Part`].
     pub fn velocity_parts(&self, qd: &[S]) -> [Vec<S>; 2] {
         let n = self.axes.len();
-        // What link s adds to every joint before it: the moment
+        // Link s adds this to every joint before it: the moment
         // I_s ˢR_0 α_s + ˢR_0 ω_s × (I_s ˢR_0 ω_s), where α_s is the printed
         // sum of q̇_j q̇_k z_{j−1} × z_{k−1} and (z × ω)·Iω = z·(ω × Iω); and a_s.
         let mut moments = Vec::with_capacity(n);

@@ -88,7 +88,7 @@ impl Formulation {
     }
 
     /// Returns ∂τ/∂q̇, n×n, what friction grows by on its diagonal: joint by joint as its velocity
-    /// grows at a unit rate. What q̈ and gravity add to the torques does not depend on q̇ and is
+    /// grows at a unit rate. The part of q̈ and gravity in the torques does not depend on q̇ and is
     /// left out. Lagrange–Euler has it from the symbols: Σ_m (h_ikm + h_imk) q̇_m.
     pub fn torque_by_velocity<S: Scalar>(self, arm: &Arm<S>, at: &At<S>, qd: &[S]) -> Matrix<S> {
         let mut rows = if self == Self::LagrangeEuler {

@@ -5,8 +5,8 @@
 //! leaders: τ_c = Sᵀ τ, D_c = Sᵀ D S, h_c over all three axes, J_c = J S; derivatives by
 //! position or velocity follow on their second axis.
 //!
-//! Formulas are of all joints of the table. What they give is *gathered* at the leaders,
-//! whose entries then have all; those of followers mean nothing. What divides by D gathers
+//! Formulas are of all joints of the table. Their results are *gathered* at the leaders,
+//! whose entries then have all; those of followers mean nothing. A formula that divides by D gathers
 //! it first, and leaves zero at followers, so that gathering changes nothing any more.
 
 use alloc::vec::Vec;

@@ -19,7 +19,7 @@ impl Formula for BaseRegressor {
         shape: Shape(&[Axis::Coordinates, Axis::BaseParameters]),
         linear: Some(("τ", "BASE_PARAMETERS")),
         choices: Some(&[Choice::Travel]),
-        // What it shares with what the chain formulas give saves a few.
+        // Values that it shares with the chain's formulas save a few.
         starts_from_recursion: true,
         gravity: true,
         ..Facts::PLAIN

@@ -129,7 +129,7 @@ impl<const PRIME: u64> Scalar for Modulo<PRIME> {
     }
     fn mul(&self, other: &Self) -> Self {
         let product = u128::from(self.0) * u128::from(other.0);
-        // The part above 2⁶¹ counts EXCESS times. What that gives is below 2⁷¹, and again.
+        // The part above 2⁶¹ counts EXCESS times. The sum is below 2⁷¹, and again.
         const LOW: u128 = (1 << 61) - 1;
         let fold = |x: u128| (x & LOW) + (x >> 61) * u128::from(Self::EXCESS);
         let once = fold(product);

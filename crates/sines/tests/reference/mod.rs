@@ -1,7 +1,7 @@
 //! Sines and cosines to 2⁻⁶⁹ relative in pairs of doubles: a double and what it
 //! lacks. Fast enough for a hundred million points, exact enough for 2⁻¹⁶ ulp.
 //!
-//! Sums and products of two doubles are exact as pairs (Knuth, Dekker). What is left of the angle
+//! Sums and products of two doubles are exact as pairs (Knuth, Dekker). The rest of the angle
 //! has an error of 2⁻¹⁰⁴, and the series, whose first terms are in pairs, 2⁻⁷⁰: a term in doubles is
 //! at most z⁴/8! < 2⁻¹⁸ with an error of 2⁻⁵². `against_the_wide_float` measures it.
 

@@ -169,7 +169,7 @@ fn placed<S: Scalar>(
 ) -> ChainLink<S> {
     let choices = &regrouping.links;
     let (link, origin) = (&skeleton.links[i].link, &choices[i].origin);
-    // How far the regrouping moved the origin of the frame before.
+    // The regrouping moved the origin of the frame before by this.
     let shift = (link.parent).map_or_else(zero_vector, |parent| choices[parent].origin.clone());
     let step = match link.kind {
         JointKind::Revolute => apply(&link.rotation, origin),

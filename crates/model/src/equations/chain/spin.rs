@@ -1,6 +1,6 @@
 //! Forward dynamics of a chain whose last joint turns about a principal axis.
 //!
-//! The couple is that of the link's own turn. What of the tensor is symmetric about the
+//! The couple is that of the link's own turn. The tensor's part that is symmetric about the
 //! axis gives J ω_z (ω × z); the rest, I_δ, has no trace and no component along the
 //! axis, and with ω′ of the frame before gives e = z·(ω′ × I_δ ω′), the part along the axis
 //! that velocities alone ask for, and 2 q̇_n z × I_δ ω′.

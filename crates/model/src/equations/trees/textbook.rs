@@ -69,7 +69,7 @@ fn dynamics(arm: &Arm<S>, at: &[DhVariables<S>], draw: &mut Draw, round: usize) 
         let accelerations = by.forward_dynamics(arm, at, &qd, &expected[0], &moves);
         assert_eq!(fields(&accelerations), fields(&qdd), "{round} {by:?} q̈");
     }
-    // What is folded away changes no torque.
+    // Folding the base away changes no torque.
     let folded = arm.clone().fold_base();
     let torques = first.inverse_dynamics(&folded, at_of(&folded, arm, at).as_slice(), &qd, &qdd);
     assert_eq!(fields(&torques), fields(&expected[0]), "{round} folded");

@@ -144,7 +144,7 @@ impl Wide {
             return top * f64::from_bits((1023 + i64::from(exponent)).unsigned_abs() << 52);
         }
         let value = libm::ldexp(top, exponent);
-        // What is below the least normal double has been rounded on the way.
+        // A value below the least normal double has been rounded on the way.
         let is_subnormal = value < f64::MIN_POSITIVE && !self.is_zero();
         if is_subnormal { value.next_up() } else { value }
     }
